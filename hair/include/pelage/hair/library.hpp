@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Finds the shipped data files by name: material types, material presets, pass trees. A data directory has the layout of
+// the source tree: materials/types, materials/presets, passes/templates.
+#pragma once
+
+#include <pelage/hair/scene.hpp>
+#include <pelage/passes/tree.hpp>
+
+#include <map>
+#include <string>
+
+namespace pelage::hair {
+
+class Library {
+public:
+    explicit Library(std::string dataDirectory);
+
+    /// "hair.materialtype.json", or a path. Types are read once.
+    Checked<std::shared_ptr<const materials::MaterialType>> materialType(const std::string& name);
+    /// A preset's name ("brown"), or a path to a *.material.json; a type beside the file is found first.
+    Checked<materials::Material::Parsed> material(const std::string& nameOrPath);
+    /// "hair_frame" or a path to a *.pass.json.
+    Checked<std::shared_ptr<const passes::PassTree>> passTree(const std::string& nameOrPath);
+    std::vector<std::string> presetNames() const;
+    const std::string& dataDirectory() const { return directory_; }
+
+private:
+    std::string directory_;
+    materials::FunctorRegistry functors_;
+    std::map<std::string, std::shared_ptr<const materials::MaterialType>> types_;
+};
+
+}  // namespace pelage::hair

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: MIT
+// Renders a Scene with a pass tree on an rhi::Device. Uploads are cached by geometry; pipelines by material and pass.
+#pragma once
+
+#include <pelage/hair/scene.hpp>
+#include <pelage/passes/graph.hpp>
+#include <pelage/rhi/rhi.hpp>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace pelage::hair {
+
+struct FrameSettings {
+    std::uint32_t width = 640, height = 640;
+    std::map<std::string, passes::SettingValue> settings = {};  // of the pass tree, those that differ
+    std::uint32_t frameIndex = 0;  // seeds hashed alpha
+};
+
+struct AttachmentReport {
+    std::string name = {}, format = {};
+    rhi::Extent3D extent = {};
+    std::uint32_t samples = 1;
+    std::uint64_t bytes = 0;
+};
+
+struct FrameReport {
+    std::vector<passes::PassReport> passes = {};
+    double gpuMilliseconds = 0;
+    std::vector<AttachmentReport> attachments = {};
+    std::vector<std::string> culled = {};
+    std::uint32_t draws = 0, barriers = 0;
+    std::uint64_t triangles = 0, segments = 0;  // submitted, all passes
+};
+
+/// A finished frame on the CPU, rows from the top.
+struct Picture {
+    std::uint32_t width = 0, height = 0;
+    std::vector<float> linear = {};          // RGBA, scene-linear, premultiplied, alpha = coverage
+    std::vector<std::uint8_t> display = {};  // RGBA8, sRGB-encoded, over the background
+    FrameReport report = {};
+};
+
+class Renderer {
+public:
+    struct Descriptor {
+        rhi::Device device = {};
+        std::shared_ptr<const passes::PassTree> tree = {};
+        bool measure = true;
+    };
+    static Outcome<Renderer> create(Descriptor descriptor);
+
+    /// Swaps the pass tree; on an error the old one stays.
+    Outcome<void> setTree(std::shared_ptr<const passes::PassTree> tree);
+
+    /// Records the frame; the display picture is then in displayTexture(), the linear one in colorTexture().
+    /// `scene` is not const: materials are compiled when their values changed.
+    Outcome<void> encode(Scene& scene, const FrameSettings& settings, rhi::CommandEncoder& encoder);
+    rhi::Texture displayTexture() const;  // empty when the tree exports no "LdrColor"
+    rhi::Texture colorTexture() const;    // "HdrColor"
+
+    /// encode(), submit, wait and read back.
+    Outcome<Picture> render(Scene& scene, const FrameSettings& settings);
+    /// Of the last frame, once its work is done.
+    FrameReport report() const;
+    const passes::Plan& plan() const;
+    /// SPIR-V of an embedded shader and the constants a material gives it: for instruction counts.
+    static std::span<const std::uint32_t> shaderCode(const std::string& file);
+    static std::vector<std::string> shaderNames();
+
+    struct State;
+
+private:
+    std::shared_ptr<State> state_;
+};
+
+/// One line for people from an rhi error.
+Diagnostic toDiagnostic(const rhi::Error& error);
+
+}  // namespace pelage::hair

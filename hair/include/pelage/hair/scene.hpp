@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: MIT
+// What is rendered: objects (geometry, material, transform), lights, environment, camera. Plain values.
+// Units: metres; scene-linear Rec.709 RGB; W/m2 for directional lights, W/sr for point lights, radiance (W/sr/m2) for the
+// environment.
+#pragma once
+
+#include <pelage/hair/geometry.hpp>
+#include <pelage/materials/material.hpp>
+
+#include <glm/glm.hpp>
+
+#include <array>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace pelage::hair {
+
+struct Camera {
+    glm::vec3 eye = {0, 1.6F, 1.2F}, target = {0, 1.6F, 0}, up = {0, 1, 0};
+    float verticalFov = 0.45F;            // rad, 0.01..3
+    float nearPlane = 0.02F, farPlane = 50.0F;  // m
+};
+
+struct Light {
+    enum class Kind : std::uint8_t { Directional, Point } kind = Kind::Directional;
+    glm::vec3 position = {};                   // m; Point
+    glm::vec3 direction = {0, -1, 0};          // the way the light travels; Directional
+    glm::vec3 color = {1, 1, 1};               // scene-linear, times
+    float intensity = 3.14159265F;             // W/m2 (Directional) or W/sr (Point)
+    bool castsShadow = true;
+};
+
+/// Distant radiance as 9 spherical-harmonics coefficients (real basis, bands 0..2), from which irradiance is exact to
+/// about 1 % (Ramamoorthi and Hanrahan 2001).
+struct Environment {
+    std::array<glm::vec3, 9> radiance = {};
+    float intensity = 1.0F;
+    bool enabled() const { return intensity > 0.0F; }
+    /// A soft studio: bright dome above, warm key side, dim floor. Mean radiance about 0.35.
+    static Environment studio();
+    static Environment uniform(const glm::vec3& radiance);
+    static Environment none() { return {.radiance = {}, .intensity = 0.0F}; }
+    /// Projects an equirectangular image (rows from the top, +Y up, RGB floats) onto the basis.
+    static Environment fromEquirect(std::uint32_t width, std::uint32_t height, std::span<const float> rgb);
+    glm::vec3 irradiance(const glm::vec3& normal) const;  // W/m2
+    glm::vec3 meanRadiance() const;
+    /// The same environment turned by a rotation.
+    Environment rotated(const glm::mat3& rotation) const;
+};
+
+struct Object {
+    std::string name = {};
+    std::shared_ptr<const Geometry> geometry = {};
+    materials::Material material;
+    glm::mat4 transform = glm::mat4(1.0F);
+};
+
+struct Scene {
+    std::vector<Object> objects = {};
+    std::vector<Light> lights = {};  // at most maxLights
+    Environment environment = Environment::studio();
+    Camera camera = {};
+    glm::vec3 background = {0.05F, 0.055F, 0.06F};  // scene-linear, behind everything in the display picture
+    float exposure = 1.0F;                          // multiplies before the display transform
+};
+inline constexpr std::uint32_t maxLights = 8;
+
+/// World bounds of all hair (or of everything when `hairOnly` is false or there is no hair).
+void bounds(const Scene& scene, bool hairOnly, glm::vec3& low, glm::vec3& high);
+
+/// A camera that frames the box from `direction` (pointing from the box to the eye).
+Camera frameBox(const glm::vec3& low, const glm::vec3& high, const glm::vec3& direction, float aspect,
+                float verticalFov = 0.45F);
+
+/// Key, fill and rim light for a box of this size, the rim from behind.
+std::vector<Light> portraitLights(const glm::vec3& low, const glm::vec3& high);
+
+}  // namespace pelage::hair

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "options.glsl"
+#include "frame.glsl"
+#include "object.glsl"
+#define VARYING out
+#include "varyings.glsl"
+
+layout(location = 0) in vec3 a_position;
+layout(location = 1) in vec3 a_normal;
+layout(location = 2) in vec3 a_tangent;
+layout(location = 3) in vec2 a_uv;
+layout(location = 4) in vec3 a_strand;  // id, along, width in m
+
+// The forward pass tests its depth for equality against the depth pass.
+invariant gl_Position;
+
+void main() {
+    vec4 world = object.model * vec4(a_position, 1.0);
+    gl_Position = frame.viewProjection * world;
+    v_world = world.xyz;
+    v_normal = mat3(object.normalMatrix) * a_normal;
+    v_tangent = mat3(object.model) * a_tangent;
+    v_uv = a_uv;
+    v_strand = a_strand.xy;
+    v_object = a_position;
+    v_coverage = 1.0;
+    if (isStrand) {
+        float drawn = frame.viewForward.w > 0.5 ? object.lineWidth.y : object.lineWidth.x;
+        v_coverage = clamp(a_strand.z / (metresPerPixel(world.xyz) * drawn), 0.0, 1.0);
+    }
+}

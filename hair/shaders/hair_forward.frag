@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: MIT
+// The thesis' hair material: R, TT and TRT under punctual lights with shadows, one irradiance sample, ambient.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "options.glsl"
+#include "frame.glsl"
+#define VARYING in
+#include "varyings.glsl"
+#include "shadow.glsl"
+#include "environment.glsl"
+#include "light.glsl"
+#include "material_common.glsl"
+#include "scattering/thesis.glsl"
+
+layout(set = 2, binding = 0, std140) uniform Material {
+    vec3 baseColor;
+    float strandIdAmp;
+    vec3 lobeSigma;
+    float azimuthScale;
+    vec3 lobeShift;
+    float azimuthNorm;
+    vec3 lobeWeight;
+    float fresnelF0;
+    float eta;
+    float envRoughness;
+    float envScale;
+    float ambientScatter;
+    float shadowDensity;
+    float shadowBias;
+} material;
+#include "surface.glsl"
+
+layout(location = 0) out vec4 o_color;  // scene-linear, premultiplied
+
+void main() {
+    Surface s = fetchSurface();
+    ThesisParameters p = ThesisParameters(s.color, material.lobeSigma, material.lobeShift, material.lobeWeight,
+                                          material.azimuthScale, material.azimuthNorm, material.fresnelF0, material.eta);
+    vec3 radiance = vec3(0.0);
+    int count = int(frame.eye.w);
+    for (int i = 0; i < count; ++i) {
+        Incident incident = incidentLight(frame.lights[i], s.world);
+        float lit = shadowTransmittance(frame.lights[i], s.world, material.shadowDensity, material.shadowBias);
+        radiance += scatterThesis(s.tangent, incident.direction, s.wo, p) * incident.irradiance * lit;
+    }
+    if (envOn) {
+        // Wider lobes stand for the size of what lights the hair (Karis 2016): R, TT, TRT keep their ratios.
+        p.sigma = max(material.envRoughness * vec3(1.0, 0.5, 2.0), vec3(0.01));
+        radiance += scatterThesisEnvironment(s.tangent, s.normal, s.wo, p) * environmentIrradiance(s.normal) *
+                    material.envScale;
+    }
+    if (ambientOn) radiance += s.color * frame.ambient.rgb * material.ambientScatter;
+    o_color = finish(radiance, s);
+}

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// Shader options: specialization constants, set by name from the material type's options. What is off is gone from the
+// specialised shader. Word order equals the order of words in the material types.
+#ifndef PELAGE_OPTIONS_GLSL
+#define PELAGE_OPTIONS_GLSL
+
+#define ALPHA_OPAQUE 0
+#define ALPHA_TEST 1
+#define ALPHA_COVERAGE 2
+#define ALPHA_HASHED 3
+#define ALPHA_BLEND 4
+layout(constant_id = 0) const int alphaMode = ALPHA_TEST;
+
+#define SHADOW_OFF 0
+#define SHADOW_HARD 1
+#define SHADOW_PCF 2
+#define SHADOW_EXPONENTIAL 3
+layout(constant_id = 1) const int shadowMode = SHADOW_EXPONENTIAL;
+layout(constant_id = 2) const int pcfRadius = 1;  // window of 2 r + 1 texels
+
+layout(constant_id = 3) const bool envOn = true;
+layout(constant_id = 4) const bool ambientOn = true;
+layout(constant_id = 5) const bool useColorMap = false;
+layout(constant_id = 6) const bool useStrandId = false;
+
+layout(constant_id = 7) const bool lobeR = true;
+layout(constant_id = 8) const bool lobeTT = true;
+layout(constant_id = 9) const bool lobeTRT = true;
+#define ATTENUATION_KARIS_H 0
+#define ATTENUATION_TAFURI_H0 1
+layout(constant_id = 10) const int attenuationModel = ATTENUATION_TAFURI_H0;
+
+// Set by the renderer, not by a material.
+layout(constant_id = 20) const bool isStrand = false;  // line geometry: coverage comes from the projected width
+layout(constant_id = 21) const int sampleCount = 1;    // of the target
+#endif

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: MIT
+#include "uploads.hpp"
+
+#include "mipmaps.hpp"
+
+#include <pelage/hair/load.hpp>
+#include <pelage/hair/renderer.hpp>
+
+#include <glm/gtc/packing.hpp>
+
+#include <algorithm>
+#include <cstring>
+
+namespace pelage::hair {
+namespace {
+
+template <class T>
+tl::unexpected<Diagnostic> failed(const rhi::Result<T>& result) {
+    return tl::unexpected(toDiagnostic(result.error()));
+}
+
+Outcome<rhi::Buffer> makeBuffer(const rhi::Device& device, const std::string& label, rhi::BufferUsage usage,
+                                std::span<const std::byte> bytes) {
+    auto buffer = device.createBuffer({.label = label, .size = bytes.size(), .usage = usage | rhi::BufferUsage::CopyDst});
+    if (!buffer) return failed(buffer);
+    if (auto written = device.queue().writeBuffer(*buffer, 0, bytes); !written) return failed(written);
+    return *buffer;
+}
+
+}  // namespace
+
+Outcome<const GpuGeometry*> Uploads::geometry(const std::shared_ptr<const Geometry>& source) {
+    if (const auto found = geometry_.find(source.get()); found != geometry_.end()) return &found->second;
+    GpuGeometry result = {.source = source};
+    auto vertices = makeBuffer(device_, source->name + " vertices", rhi::BufferUsage::Vertex,
+                               std::as_bytes(std::span(source->vertices)));
+    if (!vertices) return tl::unexpected(vertices.error());
+    auto indices = makeBuffer(device_, source->name + " indices", rhi::BufferUsage::Index,
+                              std::as_bytes(std::span(source->indices)));
+    if (!indices) return tl::unexpected(indices.error());
+    result.vertices = *vertices;
+    result.indices = *indices;
+    if (!source->colorMap.empty()) {
+        auto view = upload(source->colorMap, source->name + " colour map");
+        if (!view) return tl::unexpected(view.error());
+        result.colorMap = *view;
+    }
+    if (!source->strandIdMap.empty()) {
+        auto view = upload(source->strandIdMap, source->name + " strand-ID map");
+        if (!view) return tl::unexpected(view.error());
+        result.strandIdMap = *view;
+    }
+    double width = 0;
+    for (const Vertex& vertex : source->vertices) width += vertex.width;
+    result.meanWidth = source->vertices.empty() ? 0.0F : static_cast<float>(width / double(source->vertices.size()));
+    return &geometry_.emplace(source.get(), std::move(result)).first->second;
+}
+
+Outcome<rhi::TextureView> Uploads::texture(const std::string& reference, bool srgb) {
+    const std::string key = reference + (srgb ? "|srgb" : "|linear");
+    if (const auto found = textures_.find(key); found != textures_.end()) return found->second;
+    Image8 image = {1, 1, 4, srgb, {255, 255, 255, 255}};
+    if (reference == "builtin.black") {
+        image.texels = {0, 0, 0, 255};
+    } else if (reference == "builtin.grey") {
+        image.texels = {128, 128, 128, 255};
+    } else if (reference != "builtin.white") {
+        auto bytes = readFile(reference);
+        if (!bytes) return tl::unexpected(bytes.error());
+        auto decoded = decodeImage(*bytes, reference, srgb);
+        if (!decoded) return tl::unexpected(decoded.error());
+        image = std::move(*decoded);
+    }
+    auto view = upload(image, reference);
+    if (view) textures_.emplace(key, *view);
+    return view;
+}
+
+Outcome<rhi::TextureView> Uploads::upload(const Image8& image, const std::string& label) {
+    const std::vector<Image8> levels = mipChain(image);
+    const bool one = levels.front().channels == 1;
+    auto texture = device_.createTexture(
+        {.label = label,
+         .size = {image.width, image.height, 1},
+         .mipLevelCount = static_cast<std::uint32_t>(levels.size()),
+         .format = one           ? rhi::TextureFormat::R8Unorm
+                   : image.srgb ? rhi::TextureFormat::RGBA8UnormSrgb
+                                 : rhi::TextureFormat::RGBA8Unorm,
+         .usage = rhi::TextureUsage::TextureBinding | rhi::TextureUsage::CopyDst});
+    if (!texture) return failed(texture);
+    for (std::uint32_t level = 0; level < levels.size(); ++level) {
+        const Image8& mip = levels[level];
+        auto written = device_.queue().writeTexture({.texture = *texture, .mipLevel = level},
+                                                    std::as_bytes(std::span(mip.texels)),
+                                                    {.bytesPerRow = mip.width * mip.channels, .rowsPerImage = mip.height},
+                                                    {mip.width, mip.height, 1});
+        if (!written) return failed(written);
+    }
+    auto view = texture->createView();
+    if (!view) return failed(view);
+    return *view;
+}
+
+Outcome<rhi::Texture> Uploads::irradiance(const Environment& environment) {
+    if (irradiance_ && environment.radiance == irradianceOf_.radiance &&
+        environment.intensity == irradianceOf_.intensity) {
+        return irradiance_;
+    }
+    constexpr std::uint32_t size = 16;
+    if (!irradiance_) {
+        auto texture = device_.createTexture({.label = "irradiance",
+                                              .size = {size, size, 6},
+                                              .format = rhi::TextureFormat::RGBA16Float,
+                                              .usage = rhi::TextureUsage::TextureBinding | rhi::TextureUsage::CopyDst,
+                                              .cubeCompatible = true});
+        if (!texture) return failed(texture);
+        irradiance_ = *texture;
+    }
+    // Faces +X -X +Y -Y +Z -Z; directions by the Vulkan specification's table of cube map faces.
+    std::vector<std::uint16_t> texels(std::size_t{size} * size * 6 * 4);
+    for (std::uint32_t face = 0; face < 6; ++face) {
+        for (std::uint32_t y = 0; y < size; ++y) {
+            for (std::uint32_t x = 0; x < size; ++x) {
+                const float s = 2.0F * (static_cast<float>(x) + 0.5F) / size - 1.0F;
+                const float t = 2.0F * (static_cast<float>(y) + 0.5F) / size - 1.0F;
+                const glm::vec3 directions[6] = {{1, -t, -s}, {-1, -t, s}, {s, 1, t}, {s, -1, -t}, {s, -t, 1}, {-s, -t, -1}};
+                const glm::vec3 value =
+                    glm::min(environment.irradiance(glm::normalize(directions[face])), glm::vec3(6e4F));
+                std::uint16_t* out = &texels[((std::size_t{face} * size + y) * size + x) * 4];
+                for (int c = 0; c < 3; ++c) out[c] = glm::packHalf1x16(value[c]);
+                out[3] = glm::packHalf1x16(1.0F);
+            }
+        }
+    }
+    auto written = device_.queue().writeTexture({.texture = irradiance_}, std::as_bytes(std::span(texels)),
+                                                {.bytesPerRow = size * 8, .rowsPerImage = size}, {size, size, 6});
+    if (!written) return failed(written);
+    irradianceOf_ = environment;
+    return irradiance_;
+}
+
+void Uploads::collect() {
+    std::erase_if(geometry_, [](const auto& entry) { return entry.second.source.use_count() == 1; });
+}
+
+}  // namespace pelage::hair

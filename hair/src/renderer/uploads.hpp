@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// Geometry and textures on the device, made once and kept.
+#pragma once
+
+#include <pelage/hair/geometry.hpp>
+#include <pelage/hair/scene.hpp>
+#include <pelage/rhi/rhi.hpp>
+
+#include <map>
+#include <memory>
+#include <string>
+
+namespace pelage::hair {
+
+struct GpuGeometry {
+    std::shared_ptr<const Geometry> source = {};
+    rhi::Buffer vertices = {}, indices = {};
+    rhi::TextureView colorMap = {}, strandIdMap = {};  // empty when the asset has none
+    float meanWidth = 0;                               // m, of strands
+};
+
+class Uploads {
+public:
+    explicit Uploads(rhi::Device device) : device_(std::move(device)) {}
+
+    Outcome<const GpuGeometry*> geometry(const std::shared_ptr<const Geometry>& source);
+    /// "builtin.white", "builtin.grey", "builtin.black", or the path of an image.
+    Outcome<rhi::TextureView> texture(const std::string& reference, bool srgb);
+    /// A 16 x 16 cube of irradiance, RGBA16Float; rewritten only when the environment changed.
+    Outcome<rhi::Texture> irradiance(const Environment& environment);
+    /// Forgets geometry that nobody else holds.
+    void collect();
+
+private:
+    Outcome<rhi::TextureView> upload(const Image8& image, const std::string& label);
+
+    rhi::Device device_;
+    std::map<const Geometry*, GpuGeometry> geometry_;
+    std::map<std::string, rhi::TextureView> textures_;
+    rhi::Texture irradiance_;
+    Environment irradianceOf_ = {};
+};
+
+}  // namespace pelage::hair

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: MIT
+#include "views.hpp"
+
+#include <glm/gtc/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace pelage::hair {
+namespace {
+
+glm::vec3 unit(const glm::vec3& v, const glm::vec3& fallback) {
+    const float length = glm::length(v);
+    return length > 1e-12F && std::isfinite(length) ? v / length : fallback;
+}
+
+glm::vec3 anyUp(const glm::vec3& forward) {
+    return std::abs(forward.y) > 0.95F ? glm::vec3(1, 0, 0) : glm::vec3(0, 1, 0);
+}
+
+// The view of a light onto the sphere that holds everything.
+struct LightView {
+    glm::mat4 matrix = glm::mat4(1.0F);
+    glm::vec3 eye = {}, forward = {};
+    float nearPlane = 0, farPlane = 1, pixelScale = 0, pixelConstant = 0;
+    bool perspective = false;
+};
+
+LightView lightView(const Light& light, const glm::vec3& center, float radius, float mapSize) {
+    LightView view;
+    const float distance = glm::length(center - light.position);
+    if (light.kind == Light::Kind::Point && distance > 1.02F * radius) {
+        view.perspective = true;
+        view.eye = light.position;
+        view.forward = (center - light.position) / distance;
+        view.nearPlane = std::max(distance - radius, 0.02F * radius);
+        view.farPlane = distance + radius;
+        const float fov = 2.0F * std::asin(std::min(radius / distance, 0.97F));
+        view.matrix = perspectiveReversed(fov, 1.0F, view.nearPlane, view.farPlane);
+        view.pixelScale = 2.0F * std::tan(0.5F * fov) / mapSize;
+    } else {
+        // A directional light, or a point light so near that one frustum cannot hold the scene: parallel rays.
+        view.forward = light.kind == Light::Kind::Point ? unit(center - light.position, {0, -1, 0})
+                                                        : unit(light.direction, {0, -1, 0});
+        view.eye = center - view.forward * (2.0F * radius);
+        view.nearPlane = 0.9F * radius;
+        view.farPlane = 3.1F * radius;
+        view.matrix = orthographicReversed(radius, radius, view.nearPlane, view.farPlane);
+        view.pixelConstant = 2.0F * radius / mapSize;
+    }
+    view.matrix = view.matrix * glm::lookAt(view.eye, view.eye + view.forward, anyUp(view.forward));
+    return view;
+}
+
+}  // namespace
+
+glm::mat4 perspectiveReversed(float verticalFov, float aspect, float nearPlane, float farPlane) {
+    const float f = 1.0F / std::tan(0.5F * verticalFov), range = farPlane - nearPlane;
+    glm::mat4 m(0.0F);
+    m[0][0] = f / aspect;
+    m[1][1] = f;
+    m[2][2] = nearPlane / range;
+    m[2][3] = -1.0F;
+    m[3][2] = nearPlane * farPlane / range;
+    return m;
+}
+
+glm::mat4 orthographicReversed(float halfWidth, float halfHeight, float nearPlane, float farPlane) {
+    glm::mat4 m(1.0F);
+    m[0][0] = 1.0F / halfWidth;
+    m[1][1] = 1.0F / halfHeight;
+    m[2][2] = 1.0F / (farPlane - nearPlane);
+    m[3][2] = farPlane / (farPlane - nearPlane);
+    return m;
+}
+
+std::uint32_t countShadowLights(const Scene& scene) {
+    std::uint32_t count = 0;
+    for (std::size_t i = 0; i < std::min<std::size_t>(scene.lights.size(), maxLights); ++i) {
+        if (scene.lights[i].castsShadow) ++count;
+    }
+    return count;
+}
+
+FrameViews makeViews(const Scene& scene, std::uint32_t width, std::uint32_t height, std::uint32_t shadowSize,
+                     std::uint32_t shadowLights, std::uint32_t frameIndex) {
+    FrameViews views;
+    FrameBlock& main = views.main;
+    const Camera& camera = scene.camera;
+    const glm::vec3 forward = unit(camera.target - camera.eye, {0, 0, -1});
+    glm::vec3 up = unit(camera.up, {0, 1, 0});
+    if (std::abs(glm::dot(up, forward)) > 0.999F) up = anyUp(forward);
+    const float w = static_cast<float>(width), h = static_cast<float>(height);
+    main.viewProjection = perspectiveReversed(camera.verticalFov, w / h, camera.nearPlane, camera.farPlane) *
+                          glm::lookAt(camera.eye, camera.eye + forward, up);
+    const std::size_t count = std::min<std::size_t>(scene.lights.size(), maxLights);
+    main.eye = glm::vec4(camera.eye, static_cast<float>(count));
+    main.viewport = {w, h, 1.0F / w, 1.0F / h};
+    main.pixel = {2.0F * std::tan(0.5F * camera.verticalFov) / h, 0.0F, static_cast<float>(frameIndex), scene.exposure};
+    main.viewForward = glm::vec4(forward, 0.0F);
+
+    glm::vec3 low, high;
+    bounds(scene, true, low, high);
+    const glm::vec3 center = 0.5F * (low + high);
+    const float radius = std::max(0.52F * glm::length(high - low), 1e-4F);
+    glm::vec3 ambient = scene.environment.enabled() ? scene.environment.meanRadiance() : glm::vec3(0.0F);
+    const float size = static_cast<float>(shadowSize);
+    for (std::size_t i = 0; i < count; ++i) {
+        const Light& light = scene.lights[i];
+        LightBlock& block = main.lights[i];
+        const glm::vec3 power = light.color * light.intensity;
+        const bool point = light.kind == Light::Kind::Point;
+        block.position = glm::vec4(light.position, point ? 1.0F : 0.0F);
+        block.direction = glm::vec4(-unit(light.direction, {0, -1, 0}), -1.0F);
+        block.power = glm::vec4(power, 0.0F);
+        // A beam of E_perp spread over all directions has the mean radiance E / 4 pi.
+        const glm::vec3 to = light.position - center;
+        ambient += power / (point ? std::max(glm::dot(to, to), 1e-4F) : 1.0F) / (4.0F * std::numbers::pi_v<float>);
+        if (!light.castsShadow || views.shadows.size() >= shadowLights) continue;
+        const LightView view = lightView(light, center, radius, size);
+        block.direction.w = static_cast<float>(views.shadows.size());
+        block.shadow = view.matrix;
+        block.shadowDepth = {view.nearPlane, view.farPlane, view.perspective ? 1.0F : 0.0F, 1.0F / size};
+        FrameBlock shadow;
+        shadow.viewProjection = view.matrix;
+        shadow.eye = glm::vec4(view.eye, 0.0F);
+        shadow.viewport = {size, size, 1.0F / size, 1.0F / size};
+        shadow.pixel = {view.pixelScale, view.pixelConstant, static_cast<float>(frameIndex), 1.0F};
+        shadow.viewForward = glm::vec4(view.forward, 1.0F);
+        views.shadows.push_back(shadow);
+    }
+    main.ambient = glm::vec4(ambient, 0.0F);
+    return views;
+}
+
+}  // namespace pelage::hair

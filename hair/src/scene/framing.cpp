@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: MIT
+// Bounds, cameras and lights for scenes that come without them.
+#include <pelage/hair/scene.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace pelage::hair {
+
+void bounds(const Scene& scene, bool hairOnly, glm::vec3& low, glm::vec3& high) {
+    low = glm::vec3(std::numeric_limits<float>::max());
+    high = -low;
+    bool found = false;
+    for (const Object& object : scene.objects) {
+        if (!object.geometry || object.geometry->vertices.empty() || (hairOnly && !object.geometry->isHair)) continue;
+        for (int corner = 0; corner < 8; ++corner) {
+            const glm::vec3 local = {(corner & 1) != 0 ? object.geometry->boundsMax.x : object.geometry->boundsMin.x,
+                                     (corner & 2) != 0 ? object.geometry->boundsMax.y : object.geometry->boundsMin.y,
+                                     (corner & 4) != 0 ? object.geometry->boundsMax.z : object.geometry->boundsMin.z};
+            const glm::vec3 world = glm::vec3(object.transform * glm::vec4(local, 1.0F));
+            low = glm::min(low, world);
+            high = glm::max(high, world);
+            found = true;
+        }
+    }
+    if (found) return;
+    if (hairOnly) return bounds(scene, false, low, high);
+    low = glm::vec3(-0.5F);
+    high = glm::vec3(0.5F);
+}
+
+Camera frameBox(const glm::vec3& low, const glm::vec3& high, const glm::vec3& direction, float aspect,
+                float verticalFov) {
+    Camera camera;
+    camera.verticalFov = verticalFov;
+    camera.target = 0.5F * (low + high);
+    const glm::vec3 half = glm::max(0.5F * (high - low), glm::vec3(1e-4F));
+    const glm::vec3 back = glm::normalize(direction);
+    camera.up = std::abs(back.y) > 0.98F ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0);
+    const glm::vec3 right = glm::normalize(glm::cross(camera.up, back)), up = glm::cross(back, right);
+    // Extents of the box along the axes of the picture, and towards the eye.
+    const auto extent = [&](const glm::vec3& axis) { return glm::dot(glm::abs(axis), half); };
+    const float tangent = std::tan(0.5F * verticalFov);
+    const float distance = 1.08F * std::max(extent(up) / tangent, extent(right) / (tangent * std::max(aspect, 0.1F))) +
+                           extent(back);
+    camera.eye = camera.target + back * distance;
+    const float radius = glm::length(half);
+    camera.nearPlane = std::max(0.01F * radius, 0.5F * (distance - 2.0F * radius));
+    camera.farPlane = distance + 20.0F * radius;
+    return camera;
+}
+
+std::vector<Light> portraitLights(const glm::vec3& low, const glm::vec3& high) {
+    const glm::vec3 center = 0.5F * (low + high);
+    const float radius = std::max(0.5F * glm::length(high - low), 1e-3F);
+    const auto point = [&](const glm::vec3& towards, float distance, const glm::vec3& color, float irradiance,
+                           bool shadow) {
+        Light light;
+        light.kind = Light::Kind::Point;
+        light.position = center + glm::normalize(towards) * (distance * radius);
+        light.color = color;
+        light.intensity = irradiance * (distance * radius) * (distance * radius);
+        light.castsShadow = shadow;
+        return light;
+    };
+    return {point({0.75F, 0.85F, 1.0F}, 5.0F, {1.0F, 0.95F, 0.88F}, 5.5F, true),
+            point({-1.0F, 0.25F, 0.6F}, 6.0F, {0.75F, 0.85F, 1.0F}, 1.4F, true),
+            point({-0.55F, 0.75F, -1.0F}, 5.0F, {1.0F, 0.97F, 0.92F}, 6.0F, true)};
+}
+
+}  // namespace pelage::hair

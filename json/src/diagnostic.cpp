@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: MIT
+#include <pelage/json/diagnostic.hpp>
+
+#include <algorithm>
+#include <tuple>
+
+namespace pelage {
+namespace {
+
+std::string_view word(Severity severity) {
+    switch (severity) {
+        case Severity::Note: return "note";
+        case Severity::Warning: return "warning";
+        case Severity::Error: return "error";
+    }
+    return "error";
+}
+
+// One diagnostic stays one line whatever the offending text holds: control characters are written as escapes.
+void appendOnOneLine(std::string& out, std::string_view text) {
+    constexpr std::string_view digits = "0123456789abcdef";
+    for (const char c : text) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (c == '\n') {
+            out += "\\n";
+        } else if (c == '\t') {
+            out += "\\t";
+        } else if (byte < 0x20 || byte == 0x7f) {
+            out += "\\x";
+            out += digits[byte >> 4U];
+            out += digits[byte & 15U];
+        } else {
+            out += c;
+        }
+    }
+}
+
+}  // namespace
+
+std::string toString(const Diagnostic& diagnostic) {
+    std::string out;
+    if (!diagnostic.file.empty()) {
+        appendOnOneLine(out, diagnostic.file);
+        out += ':';
+    }
+    if (diagnostic.line != 0) {
+        out += std::to_string(diagnostic.line) + ':' + std::to_string(diagnostic.column) + ':';
+    }
+    if (!out.empty()) out += ' ';
+    out += word(diagnostic.severity);
+    if (!diagnostic.code.empty()) {
+        out += ' ';
+        appendOnOneLine(out, diagnostic.code);
+    }
+    out += ": ";
+    appendOnOneLine(out, diagnostic.text);
+    if (!diagnostic.hint.empty()) {
+        out += "; hint: ";
+        appendOnOneLine(out, diagnostic.hint);
+    }
+    return out;
+}
+
+void Diagnostics::add(Diagnostic diagnostic) { items_.push_back(std::move(diagnostic)); }
+
+void Diagnostics::append(const Diagnostics& other) {
+    const std::size_t count = other.items_.size();  // `other` may be this list
+    items_.reserve(items_.size() + count);
+    for (std::size_t i = 0; i < count; ++i) items_.push_back(other.items_[i]);
+}
+
+bool Diagnostics::hasErrors() const {
+    return std::any_of(items_.begin(), items_.end(), [](const Diagnostic& d) { return d.severity == Severity::Error; });
+}
+
+void Diagnostics::sortByPlace() {
+    std::stable_sort(items_.begin(), items_.end(), [](const Diagnostic& a, const Diagnostic& b) {
+        return std::tie(a.file, a.line, a.column) < std::tie(b.file, b.line, b.column);
+    });
+}
+
+std::string Diagnostics::text() const {
+    std::string out;
+    for (const Diagnostic& item : items_) out += toString(item) + '\n';
+    return out;
+}
+
+}  // namespace pelage

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: MIT
+// Material types and materials. A type (*.materialtype.json) lists properties in groups, shader inputs, shader options,
+// shaders with their draw lists, and what connects them; a material (*.material.json) is a type and the values that
+// differ. Both are checked when read; every fault is a Diagnostic with its place.
+#pragma once
+
+#include <pelage/json/diagnostic.hpp>
+#include <pelage/materials/functor.hpp>
+#include <pelage/rhi/resources.hpp>
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace pelage::materials {
+
+struct Property {
+    std::string id = {};  // "scattering.longitudinalRoughness"
+    std::string group = {}, groupLabel = {}, name = {}, label = {}, description = {}, unit = {};
+    ValueType type = ValueType::Float;
+    Value defaultValue = {};
+    std::optional<double> min = {}, max = {}, softMin = {}, softMax = {}, step = {};
+    std::vector<std::string> words = {};  // Enum
+    bool srgb = false;                    // Color and textures: written in sRGB
+    std::string visibleWhen = {}, enabledWhen = {};
+};
+
+struct Input {
+    std::string name = {};
+    ValueType type = ValueType::Float;
+    bool srgb = false;  // textures: texels are sRGB-encoded (use an ...Srgb format)
+};
+
+struct Option {
+    std::string name = {};
+    ValueType type = ValueType::Bool;     // Bool, Int or Enum
+    std::vector<std::string> words = {};  // Enum; the value of the specialization constant is the index
+    std::int64_t defaultValue = 0;
+    std::int64_t min = 0, max = 1;        // Int
+};
+
+struct ShaderUse {
+    std::string name = {};      // "forward"
+    std::string drawList = {};  // joins the material to the raster passes with the same draw list
+    std::string vertex = {}, fragment = {};  // shader files; `fragment` may be empty (depth only)
+    std::vector<std::string> options = {};   // those it reads (the file may say "*")
+    RenderState state = {};
+    bool enabledByDefault = true;
+};
+
+class MaterialType {
+public:
+    /// Reads and links a type. `registry` must outlive nothing: what is needed is copied.
+    static Checked<std::shared_ptr<const MaterialType>> parse(std::string_view text, const std::string& file,
+                                                              const FunctorRegistry& registry);
+    static Checked<std::shared_ptr<const MaterialType>> load(const std::string& path, const FunctorRegistry& registry);
+
+    const std::string& name() const;
+    const std::string& file() const;
+    int version() const;
+    const std::vector<Property>& properties() const;
+    const std::vector<Input>& inputs() const;
+    const std::vector<Option>& options() const;
+    const std::vector<ShaderUse>& shaders() const;
+    const std::vector<std::string>& presets() const;
+    const Property* find(std::string_view id) const;
+    /// Warnings found while reading (errors do not give a type).
+    const Diagnostics& warnings() const;
+
+    struct Linked;  // src/link.hpp
+    const Linked& linked() const { return *linked_; }
+
+private:
+    std::shared_ptr<const Linked> linked_;
+};
+
+/// The result of a material's connections and functors: what the renderer needs and nothing else.
+struct CompiledMaterial {
+    struct InputValue {
+        std::string name = {};
+        Value value = {};
+    };
+    struct Shader {
+        ShaderUse use = {};
+        bool enabled = true;
+        RenderState state = {};
+        std::vector<rhi::ConstantEntry> constants = {};  // the options this shader reads, as specialization constants
+    };
+    std::vector<InputValue> inputs = {};    // numbers and colours
+    std::vector<InputValue> textures = {};  // Texture2D, TextureCube
+    std::vector<rhi::ConstantEntry> options = {};
+    std::vector<Shader> shaders = {};
+    std::uint64_t inputsVersion = 0;    // grows when an input or texture changed
+    std::uint64_t pipelineVersion = 0;  // grows when an option, a state or an enable flag changed
+    std::uint64_t functorRuns = 0;      // since the material was made
+};
+
+class Material {
+public:
+    explicit Material(std::shared_ptr<const MaterialType> type);
+
+    /// Finds material types by the name a material file gives, for example "hair.materialtype.json".
+    using TypeSource = std::function<Checked<std::shared_ptr<const MaterialType>>(const std::string& name)>;
+    struct Parsed;
+    static Checked<Parsed> parse(std::string_view text, const std::string& file, const TypeSource& types);
+    static Checked<Parsed> load(const std::string& path, const TypeSource& types);
+
+    const MaterialType& type() const { return *type_; }
+    const std::shared_ptr<const MaterialType>& sharedType() const { return type_; }
+
+    /// Sets a property. Numbers outside the range are clamped and say so in the returned warning; a wrong type, an
+    /// unknown name or word, and numbers that are not finite change nothing and give an error.
+    std::optional<Diagnostic> set(std::string_view id, const Value& value);
+    /// As a person writes it: "0.3", "true", "alphaTest", "0.8,0.5,0.2", "#805030" (sRGB), a texture path.
+    std::optional<Diagnostic> setFromText(std::string_view id, std::string_view text);
+    const Value* get(std::string_view id) const;
+    std::optional<Diagnostic> applyPreset(std::string_view name);
+    void reset();
+    /// What `visibleWhen` (also of the group) and `enabledWhen` say at the present values; true for an unknown name.
+    bool isVisible(std::string_view id) const;
+    bool isEnabled(std::string_view id) const;
+
+    /// Runs the functors whose inputs changed since the last call.
+    const CompiledMaterial& compile();
+
+private:
+    std::shared_ptr<const MaterialType> type_;
+    std::vector<Value> values_;          // by property index
+    std::vector<bool> dirty_;
+    CompiledMaterial compiled_;
+    bool first_ = true;
+};
+
+struct Material::Parsed {
+    Material material;
+    Diagnostics warnings;
+};
+
+}  // namespace pelage::materials

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: MIT
+// From what a file, a person or a program gives to the value of a property: one set of rules and codes (V003..V013).
+#pragma once
+
+#include <pelage/json/value.hpp>
+#include <pelage/materials/material.hpp>
+
+namespace pelage::materials {
+
+/// A value, a problem, or (clamped numbers) both: a value with a warning.
+struct Conversion {
+    std::optional<Value> value = {};
+    std::optional<Diagnostic> problem = {};  // without file and place
+};
+
+Conversion convert(const Property& property, const json::Value& value);
+Conversion convert(const Property& property, std::string_view text);
+/// From a program: the type must be the property's (Int and Uint, Color and Float3 may stand for each other).
+Conversion convert(const Property& property, const Value& value);
+
+/// Components of a number type (0 for others).
+std::size_t componentCount(ValueType type);
+bool isTexture(ValueType type);
+
+/// Shortest digits that give the same float back: 0.1, not 0.10000000149.
+std::string shown(double number);
+/// "did you mean 'x'?", or the list of what is known.
+std::string nameHint(std::string_view word, const std::vector<std::string>& known);
+
+/// The limits that hold at run time, from the file or from the type.
+struct Range {
+    double min = 0, max = 0;
+};
+Range rangeOf(const Property& property);
+
+}  // namespace pelage::materials

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: MIT
+// The texts of materials/types/*.schema.json, compiled in.
+#pragma once
+
+#include <string_view>
+
+namespace pelage::materials {
+
+std::string_view materialTypeSchema();
+std::string_view materialSchema();
+
+}  // namespace pelage::materials

@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: MIT
+// What a pass tree file says, typed and with the places it was said at. Nothing is resolved yet: names are words.
+#pragma once
+
+#include "expression.hpp"
+
+#include <pelage/json/value.hpp>
+#include <pelage/passes/tree.hpp>
+
+namespace pelage::passes {
+
+using json::Place;
+
+/// Reports into one list for one file.
+class Reporter {
+public:
+    Reporter(std::string file, Diagnostics& out) : file_(std::move(file)), out_(out) {}
+    void error(Place place, std::string_view code, std::string text, std::string hint = {}) {
+        out_.add({Severity::Error, std::string(code), file_, place.line, place.column, std::move(text), std::move(hint)});
+    }
+    void warning(Place place, std::string_view code, std::string text, std::string hint = {}) {
+        out_.add({Severity::Warning, std::string(code), file_, place.line, place.column, std::move(text), std::move(hint)});
+    }
+    bool failed() const { return out_.hasErrors(); }
+    std::size_t count() const { return out_.items().size(); }
+
+private:
+    std::string file_;
+    Diagnostics& out_;
+};
+
+/// "did you mean 'x'?", or `otherwise` when no known name is near.
+std::string didYouMean(std::string_view word, const std::vector<std::string>& known, std::string otherwise = {});
+std::string atPlace(Place place);  // "12:5"
+
+/// `Pass.slot`, `host.Import`, `att.Attachment` or `const.name`.
+struct Reference {
+    enum class Root : std::uint8_t { Pass, Host, Attachment, Constant } root = Root::Pass;
+    std::string owner = {}, member = {};  // "Resolve", "color"; for the other roots `member` is the name
+    Place place = {};
+    std::string text() const { return owner + "." + member; }
+};
+
+/// A number, or the name of a setting that gives it.
+struct NumberOrSetting {
+    double number = 0;
+    std::string setting = {};
+    Place place = {};
+};
+
+struct SettingDeclaration {
+    SettingInfo info = {};
+    Place place = {};
+};
+
+struct ImportDeclaration {
+    enum class Kind : std::uint8_t { Image, ImageArray, ImageCube, Buffer } kind = Kind::Image;
+    std::string name = {};
+    SlotAccess access = SlotAccess::Read;
+    std::vector<rhi::TextureFormat> formats = {};  // empty: any
+    std::vector<std::uint32_t> samples = {};       // empty: any
+    bool optional = false;
+    Place place = {};
+};
+
+struct ViewDeclaration {
+    std::string name = {};
+    NumberOrSetting count = {};
+    Place place = {};
+};
+
+struct SizeDeclaration {
+    enum class Kind : std::uint8_t { Frame, Like, Square, Fixed } kind = Kind::Frame;
+    double scale = 1;  // Frame, Like
+    std::string like = {};
+    NumberOrSetting width = {}, height = {};  // Square uses width
+    Place place = {};
+};
+
+struct AttachmentDeclaration {
+    std::string name = {};
+    std::vector<rhi::TextureFormat> formats = {};  // the wished one, then the fallbacks
+    SizeDeclaration size = {};
+    NumberOrSetting samples = {1};
+    std::uint32_t layers = 1;
+    std::string layersView = {};  // layers = number of these views
+    Place place = {}, formatPlace = {}, layersPlace = {};
+};
+
+struct SlotDeclaration {
+    std::string name = {}, bind = {};
+    SlotAccess access = SlotAccess::Read;
+    SlotUse use = SlotUse::Color;
+    bool optional = false, dontCare = false, hasClear = false, blendPremultiplied = false, depthTestAlways = false;
+    rhi::Color clear = {};
+    enum class DepthClear : std::uint8_t { Far, Near, Number } depthClear = DepthClear::Far;
+    bool clearIsDepth = false;
+    float depthValue = 0;
+    Place place = {}, clearPlace = {}, bindPlace = {};
+
+    std::vector<Reference> connect = {};  // the first that exists is taken
+    Place connectPlace = {};              // of the value in "connect"; line 0: not connected
+    std::optional<Reference> whenDisabled = {};
+};
+
+struct ConstantDeclaration {
+    std::string name = {};
+    NumberOrSetting value = {};
+    Place place = {};
+};
+
+struct ShaderChoice {
+    std::optional<Expression> when = {};
+    std::string file = {}, otherwise = {};
+    Place place = {};
+};
+
+struct OrderedAfter {
+    std::string pass = {};
+    Place place = {};
+};
+
+struct PassDeclaration {
+    std::string name = {}, view = {}, drawList = {};
+    PassKind kind = PassKind::Raster;
+    PlanPass::Sort sort = PlanPass::Sort::None;
+    bool enabled = true, forEachLayer = false, sideEffects = false;
+    std::optional<Expression> enabledWhen = {};
+    ShaderChoice shader = {};
+    std::vector<SlotDeclaration> slots = {};
+    std::vector<ConstantDeclaration> constants = {};
+    std::vector<OrderedAfter> after = {};
+    std::uint32_t dispatch[3] = {1, 1, 1}, threads[3] = {8, 8, 1};
+    std::string dispatchLike = {};
+    Place place = {}, namePlace = {}, viewPlace = {}, drawListPlace = {}, dispatchPlace = {};
+
+    const SlotDeclaration* slot(std::string_view word) const;
+    std::vector<std::string> slotNames() const;
+};
+
+struct ExportDeclaration {
+    std::string name = {};
+    std::vector<Reference> from = {};
+    bool optional = false;
+    Place place = {}, fromPlace = {};
+};
+
+struct DrawListDeclaration {
+    std::string name = {};
+    Place place = {};
+};
+
+struct PassTree::Description {
+    std::string file = {}, name = {};
+    std::vector<SettingDeclaration> settings = {};
+    std::vector<SettingInfo> settingInfos = {};  // the same, as the public face gives them
+    std::vector<ImportDeclaration> imports = {};
+    std::vector<ViewDeclaration> views = {};
+    std::vector<DrawListDeclaration> drawLists = {};
+    std::vector<AttachmentDeclaration> attachments = {};
+    std::vector<PassDeclaration> passes = {};
+    std::vector<ExportDeclaration> exports = {};
+    Diagnostics warnings = {};
+
+    const SettingInfo* setting(std::string_view word) const;
+    const ImportDeclaration* import(std::string_view word) const;
+    const ViewDeclaration* view(std::string_view word) const;
+    const AttachmentDeclaration* attachment(std::string_view word) const;
+    const PassDeclaration* pass(std::string_view word) const;
+    Vocabulary vocabulary() const;
+    /// False only when no settings and imports can switch the pass off.
+    bool canBeDisabled(const PassDeclaration& pass) const;
+};
+
+/// The stand-ins every frame has.
+const std::vector<std::string>& constantNames();
+
+template <class T>
+std::vector<std::string> namesOf(const std::vector<T>& items) {
+    std::vector<std::string> names;
+    for (const T& item : items) names.push_back(item.name);
+    return names;
+}
+
+}  // namespace pelage::passes

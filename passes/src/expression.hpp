@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: MIT
+// Conditions of a pass tree: || && ! == != < <= > >= in [..], numbers, 'words', settings, host.has('Import').
+// Parsed and typed once; evaluated for settings and imports.
+#pragma once
+
+#include <pelage/json/value.hpp>
+#include <pelage/passes/tree.hpp>
+
+namespace pelage::passes {
+
+class Reporter;
+
+/// What names an expression may use.
+struct Vocabulary {
+    std::vector<const SettingInfo*> settings = {};
+    std::vector<std::string> imports = {};
+};
+
+/// What an expression is evaluated against.
+struct Conditions {
+    std::map<std::string, SettingValue> settings = {};  // all of them
+    std::map<std::string, bool> imports = {};           // lent or not
+};
+
+class Expression {
+public:
+    /// Reports E001 (syntax), E002 (unknown name), E003 (not a word of the setting), E004 (types do not fit). `place` is
+    /// where the string begins in the file; `about` names the condition in messages.
+    static std::optional<Expression> parse(const std::string& text, json::Place place, const Vocabulary& vocabulary,
+                                           const std::string& about, Reporter& reporter);
+    bool evaluate(const Conditions& conditions) const;
+    const std::string& text() const { return text_; }
+    /// Settings it looks at, for the warning about settings without effect.
+    const std::vector<std::string>& settings() const { return settings_; }
+
+    struct Node;
+
+private:
+    std::string text_ = {};
+    std::shared_ptr<const Node> root_ = {};
+    std::vector<std::string> settings_ = {};
+};
+
+}  // namespace pelage::passes

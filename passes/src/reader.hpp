@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: MIT
+// From a checked JSON document to a Description. The schema has been applied, so kinds of values are right; what is
+// read with these helpers falls back to a default when they are not, and never throws.
+#pragma once
+
+#include "description.hpp"
+
+namespace pelage::passes {
+
+/// Reads all of a document that the schema accepts; reports what a schema cannot say.
+std::shared_ptr<PassTree::Description> readDescription(const json::Document& document, Diagnostics& out);
+
+/// The members "templates" and "passes" (reader_passes.cpp). Settings, imports, … of `description` are read already.
+void readPasses(const json::Value& root, PassTree::Description& description, Reporter& reporter);
+
+/// Faults that are there whatever the settings: names, references, what may follow what (check.cpp).
+void checkDescription(PassTree::Description& description, Reporter& reporter);
+
+/// The text of passtree.schema.json.
+std::string_view passTreeSchema();
+
+std::string wordOf(const json::Value& object, std::string_view key, std::string otherwise = {});
+bool flagOf(const json::Value& object, std::string_view key, bool otherwise);
+Place placeOf(const json::Value& object, std::string_view key);  // of the value; of the object when absent
+NumberOrSetting numberOrSetting(const json::Value& value);
+std::uint32_t wholeNumber(double number, std::uint32_t otherwise = 0);
+SlotAccess accessOf(const json::Value& object);
+/// One reference or a list of them. Reports P015 for what is no reference.
+std::vector<Reference> readReferences(const json::Value& value, Reporter& reporter);
+
+template <class F>
+void forEachMember(const json::Value& object, std::string_view key, F&& use) {
+    const json::Value* value = object.find(key);
+    if (!value || !value->isObject()) return;
+    for (const json::Member& member : value->members) use(member);
+}
+
+}  // namespace pelage::passes

@@ -1,0 +1,5 @@
+// SPDX-License-Identifier: MIT
+// Everything but Vulkan interop.
+#pragma once
+
+#include <pelage/rhi/device.hpp>

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: MIT
+// Making a device: features are asked for and granted by name, and what Pelage always needs is always on.
+#include "device_object.hpp"
+#include "recording.hpp"
+
+namespace pelage::rhi {
+namespace detail {
+
+Object::Object(std::shared_ptr<DeviceObject> owner, std::string_view kindName, std::string objectLabel)
+    : device(std::move(owner)), kind(kindName), label(std::move(objectLabel)), id(device->nextId++) {}
+
+Result<void> needSameDevice(const Object& object, const DeviceObject& device) {
+    if (object.device.get() == &device) return {};
+    return invalid(ErrorCode::OtherDevice, cat(object.describe(), " belongs to [Device \"", object.device->label,
+                                               "\"], not to [Device \"", device.label, "\"]."));
+}
+
+Toggles togglesFor(VkDriverId driver) {
+    Toggles toggles;
+    if (driver == VK_DRIVER_ID_MESA_LLVMPIPE) {
+        toggles.barrierAfterBeginTimestamp = true;
+        toggles.resolveToFirstLayerOnly = true;
+    }
+    return toggles;
+}
+
+namespace {
+
+struct FeatureChain {
+    VkPhysicalDeviceLineRasterizationFeaturesEXT lines = {
+        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_LINE_RASTERIZATION_FEATURES_EXT};
+    VkPhysicalDeviceVulkan13Features f13 = {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+    VkPhysicalDeviceVulkan12Features f12 = {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, &f13};
+    VkPhysicalDeviceVulkan11Features f11 = {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES, &f12};
+    VkPhysicalDeviceFeatures2 f = {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &f11};
+};
+
+void chooseFeatures(const AdapterObject& adapter, Feature granted, FeatureChain& on) {
+    FeatureChain has;
+    if (adapter.lineRasterization) {
+        has.f13.pNext = &has.lines;
+        on.f13.pNext = &on.lines;
+        on.lines.rectangularLines = VK_TRUE;
+    }
+    adapter.instance->vk.vkGetPhysicalDeviceFeatures2(adapter.handle, &has.f);
+    on.f13.dynamicRendering = on.f13.synchronization2 = on.f13.maintenance4 = VK_TRUE;
+    // glslang writes `discard` as one of these two.
+    on.f13.shaderTerminateInvocation = has.f13.shaderTerminateInvocation;
+    on.f13.shaderDemoteToHelperInvocation = has.f13.shaderDemoteToHelperInvocation;
+    on.f13.shaderZeroInitializeWorkgroupMemory = has.f13.shaderZeroInitializeWorkgroupMemory;
+    on.f12.timelineSemaphore = VK_TRUE;
+    on.f12.scalarBlockLayout = has.f12.scalarBlockLayout;
+    on.f11.shaderDrawParameters = has.f11.shaderDrawParameters;
+    auto& to = on.f.features;
+    const auto& from = has.f.features;
+    to.independentBlend = VK_TRUE;
+    to.sampleRateShading = from.sampleRateShading;
+    to.depthClamp = from.depthClamp;
+    to.depthBiasClamp = from.depthBiasClamp;
+    to.imageCubeArray = from.imageCubeArray;
+    to.fullDrawIndexUint32 = from.fullDrawIndexUint32;
+    to.shaderFloat64 = from.shaderFloat64;
+    to.shaderInt64 = from.shaderInt64;
+    to.shaderImageGatherExtended = from.shaderImageGatherExtended;
+    to.shaderStorageImageExtendedFormats = from.shaderStorageImageExtendedFormats;
+    to.shaderStorageImageWriteWithoutFormat = from.shaderStorageImageWriteWithoutFormat;
+    to.shaderUniformBufferArrayDynamicIndexing = from.shaderUniformBufferArrayDynamicIndexing;
+    to.shaderStorageBufferArrayDynamicIndexing = from.shaderStorageBufferArrayDynamicIndexing;
+    to.shaderClipDistance = from.shaderClipDistance;
+    to.wideLines = contains(granted, Feature::WideLines);
+    to.pipelineStatisticsQuery = contains(granted, Feature::PipelineStatistics);
+    to.fillModeNonSolid = contains(granted, Feature::FillModeNonSolid);
+    to.samplerAnisotropy = contains(granted, Feature::AnisotropicFiltering);
+    to.fragmentStoresAndAtomics = to.vertexPipelineStoresAndAtomics = contains(granted, Feature::FragmentStores);
+    on.f12.shaderBufferInt64Atomics = contains(granted, Feature::Int64BufferAtomics);
+}
+
+Result<std::shared_ptr<DeviceObject>> makeDevice(const std::shared_ptr<AdapterObject>& adapter,
+                                                 const DeviceDescriptor& descriptor) {
+    const auto title = cat("[Device \"", descriptor.label, "\"]");
+    const Feature offered = adapter->info.features;
+    const auto absent = static_cast<Feature>(static_cast<std::uint32_t>(descriptor.requiredFeatures) &
+                                             ~static_cast<std::uint32_t>(offered));
+    if (any(absent))
+        return fail(ErrorKind::Unsupported, ErrorCode::MissingFeature,
+                    cat(title, " requires ", featureNames(absent), ", which [Adapter \"", adapter->info.name,
+                        "\"] does not have; it has ", featureNames(offered), '.'));
+    const Feature granted = descriptor.requiredFeatures | (descriptor.optionalFeatures & offered);
+
+    auto device = std::make_shared<DeviceObject>();
+    device->adapter = adapter;
+    device->label = descriptor.label;
+    device->info = adapter->info;
+    device->info.features = granted;
+    if (!contains(granted, Feature::WideLines)) device->info.limits.maxLineWidth = 1;
+    device->onUncapturedError = descriptor.onUncapturedError;
+    device->toggles = togglesFor(adapter->driverId);
+
+    FeatureChain features;
+    chooseFeatures(*adapter, granted, features);
+    device->depthClamp = features.f.features.depthClamp != 0;
+    device->rectangularLines = features.lines.rectangularLines != 0;
+    std::vector<const char*> extensions;
+    if (adapter->lineRasterization) extensions.push_back(VK_EXT_LINE_RASTERIZATION_EXTENSION_NAME);
+    if (adapter->swapchain) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+    const float priority = 1;
+    VkDeviceQueueCreateInfo queue = {VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
+    queue.queueFamilyIndex = adapter->queueFamily;
+    queue.queueCount = 1;
+    queue.pQueuePriorities = &priority;
+    VkDeviceCreateInfo info = {VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features.f};
+    info.queueCreateInfoCount = 1;
+    info.pQueueCreateInfos = &queue;
+    info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
+    const auto& instance = adapter->instance->vk;
+    VkDevice handle = VK_NULL_HANDLE;
+    if (const auto r = instance.vkCreateDevice(adapter->handle, &info, nullptr, &handle); r != VK_SUCCESS)
+        return forward(vulkanError(r, "vkCreateDevice", title));
+    auto& vk = device->functions;
+    std::string missing;
+#define PELAGE_VK_DEVICE(name)                                                                      \
+    vk.name = reinterpret_cast<PFN_##name>(instance.vkGetDeviceProcAddr(handle, #name)); \
+    if (vk.name == nullptr) missing += " " #name;
+#define PELAGE_VK_DEVICE_OPTIONAL(name) \
+    vk.name = reinterpret_cast<PFN_##name>(instance.vkGetDeviceProcAddr(handle, #name));
+#include "functions.def"
+    device->handle = handle;
+    if (!missing.empty())
+        return fail(ErrorKind::Unsupported, ErrorCode::DriverCall, cat(title, " lacks the functions", missing, '.'));
+    device->memory.open(&vk, handle, adapter->memory);
+    vk.vkGetDeviceQueue(handle, adapter->queueFamily, 0, &device->queue.handle);
+    VkSemaphoreTypeCreateInfo type = {VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO};
+    type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
+    VkSemaphoreCreateInfo semaphore = {VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, &type};
+    if (const auto r = vk.vkCreateSemaphore(handle, &semaphore, nullptr, &device->queue.timeline); r != VK_SUCCESS)
+        return forward(vulkanError(r, "vkCreateSemaphore", title));
+    VkPipelineCacheCreateInfo cache = {VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
+    if (const auto r = vk.vkCreatePipelineCache(handle, &cache, nullptr, &device->pipelineCache); r != VK_SUCCESS)
+        return forward(vulkanError(r, "vkCreatePipelineCache", title));
+    device->queue.uploads = std::make_unique<Recording>();
+    device->nameObject(VK_OBJECT_TYPE_DEVICE, handle, descriptor.label);
+    device->nameObject(VK_OBJECT_TYPE_SEMAPHORE, device->queue.timeline, descriptor.label + " timeline");
+    return device;
+}
+
+}  // namespace
+}  // namespace detail
+
+Result<Device> Adapter::requestDevice(const DeviceDescriptor& descriptor) const {
+    if (auto ok = detail::needHandle(*this, "the adapter"); !ok) return detail::forward(ok.error());
+    return detail::makeDevice(object_, descriptor).map([](auto object) { return Device(std::move(object)); });
+}
+
+const AdapterInfo& Device::info() const { return object_->info; }
+Queue Device::queue() const { return Queue(object_); }
+
+bool Device::supports(TextureFormat format, TextureUsage usage, std::uint32_t sampleCount) const {
+    if (!object_ || format == TextureFormat::Undefined || usage == TextureUsage::None) return false;
+    VkPhysicalDeviceImageFormatInfo2 info = {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_IMAGE_FORMAT_INFO_2};
+    info.format = detail::toVk(format);
+    info.type = VK_IMAGE_TYPE_2D;
+    info.tiling = VK_IMAGE_TILING_OPTIMAL;
+    info.usage = detail::toVk(usage, format);
+    VkImageFormatProperties2 properties = {VK_STRUCTURE_TYPE_IMAGE_FORMAT_PROPERTIES_2};
+    const auto& adapter = *object_->adapter;
+    const auto r = adapter.instance->vk.vkGetPhysicalDeviceImageFormatProperties2(adapter.handle, &info, &properties);
+    return r == VK_SUCCESS && (properties.imageFormatProperties.sampleCounts & sampleCount) != 0;
+}
+
+Device::MemoryStatistics Device::memoryStatistics() const {
+    if (!object_) return {};
+    const auto c = object_->memory.counters();
+    return {c.allocatedBytes,     c.usedBytes,           c.allocations,         c.blocks,
+            object_->liveBuffers, object_->liveTextures, object_->livePipelines};
+}
+
+}  // namespace pelage::rhi

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: MIT
+// Instance, adapter and device behind their handles, and what a device does for all its children: errors, burial,
+// descriptor pools, caches, the queue.
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <map>
+
+#include "objects.hpp"
+
+namespace pelage::rhi::detail {
+
+struct InstanceObject {
+    ~InstanceObject();
+    void message(LogLevel level, std::string id, std::string text) const;
+    std::string label;
+    MessageCallback onMessage;
+    GlobalFunctions global;
+    InstanceFunctions vk;
+    PFN_vkGetInstanceProcAddr getProcAddr = nullptr;
+    VkInstance handle = VK_NULL_HANDLE;
+    VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
+    bool debugUtils = false, surfaces = false;
+};
+
+struct AdapterObject {
+    std::shared_ptr<InstanceObject> instance;
+    VkPhysicalDevice handle = VK_NULL_HANDLE;
+    AdapterInfo info;
+    VkDriverId driverId = {};
+    std::uint32_t queueFamily = 0;
+    VkPhysicalDeviceMemoryProperties memory = {};
+    bool lineRasterization = false, swapchain = false;
+};
+/// Null when the physical device is below what Pelage always needs.
+std::shared_ptr<AdapterObject> inspectAdapter(std::shared_ptr<InstanceObject> instance, VkPhysicalDevice device);
+
+/// Driver faults we work around, by name; filled in one place.
+struct Toggles {
+    /// A timestamp is binned with the tiles, so work that follows it at once runs before it (rhi facts L3).
+    bool barrierAfterBeginTimestamp = false;
+    /// A dynamic-rendering resolve into an array layer above 0 writes nothing (L1); such passes are refused.
+    bool resolveToFirstLayerOnly = false;
+};
+Toggles togglesFor(VkDriverId driver);
+
+struct CommandSlot {  // a pool and its one command buffer, recycled
+    VkCommandPool pool = VK_NULL_HANDLE;
+    VkCommandBuffer commands = VK_NULL_HANDLE;
+    std::uint64_t value = 0;
+};
+struct StagingChunk {
+    VkBuffer buffer = VK_NULL_HANDLE;
+    Allocation allocation;
+    std::uint64_t used = 0, value = 0;
+};
+struct Recording;
+
+struct QueueState {
+    std::mutex mutex;
+    VkQueue handle = VK_NULL_HANDLE;
+    VkSemaphore timeline = VK_NULL_HANDLE;
+    std::uint64_t submitted = 0;  // the last value given out
+    std::vector<CommandSlot> running, idle;
+    std::vector<StagingChunk> staging;
+    std::unique_ptr<Recording> uploads;             // writes that the next submission carries
+    std::vector<VkSemaphoreSubmitInfo> acquired;    // binary semaphores that the next submission waits for
+};
+
+struct DeviceObject : std::enable_shared_from_this<DeviceObject> {
+    ~DeviceObject();
+
+    /// Gives the error to the innermost scope or the callback, and back to the caller.
+    void report(const Error& error);
+    template <class T>
+    Result<T> reported(Result<T> result) {
+        if (!result) report(result.error());
+        return result;
+    }
+    /// Runs `destroy` once the timeline has reached `value`; at once when it has.
+    void bury(std::uint64_t value, std::function<void(DeviceObject&)> destroy);
+    void collect();
+    std::uint64_t completed();
+    void nameObject(VkObjectType type, std::uint64_t handle, const std::string& label) const;
+    template <class T>
+    void nameObject(VkObjectType type, T handle, const std::string& label) const {
+        nameObject(type, reinterpret_cast<std::uint64_t>(handle), label);
+    }
+    Result<std::pair<VkDescriptorSet, VkDescriptorPool>> allocateSet(VkDescriptorSetLayout layout,
+                                                                     const std::string& object);
+    void freeSet(VkDescriptorSet set, VkDescriptorPool pool);
+
+    std::shared_ptr<AdapterObject> adapter;
+    const DeviceFunctions& vk() const { return functions; }
+    DeviceFunctions functions;
+    VkDevice handle = VK_NULL_HANDLE;
+    std::string label;
+    AdapterInfo info;
+    Toggles toggles;
+    bool depthClamp = false, rectangularLines = false;
+    std::function<void(const Error&)> onUncapturedError;
+    std::atomic<bool> lost{false};
+    std::atomic<std::uint64_t> nextId{1};
+    std::atomic<std::uint32_t> liveBuffers{0}, liveTextures{0}, livePipelines{0};
+    MemoryAllocator memory;
+    QueueState queue;
+    VkPipelineCache pipelineCache = VK_NULL_HANDLE;
+
+    std::mutex scopeMutex;
+    std::vector<std::optional<Error>> scopes;
+
+    std::mutex graveMutex;
+    struct Grave {
+        std::uint64_t value;
+        std::function<void(DeviceObject&)> destroy;
+    };
+    std::deque<Grave> graves;
+    std::atomic<std::uint64_t> knownCompleted{0};
+
+    std::mutex poolMutex;
+    std::vector<VkDescriptorPool> pools;
+
+    std::mutex cacheMutex;
+    std::map<std::string, std::weak_ptr<BindGroupLayoutObject>> layoutCache;
+    std::map<std::string, std::weak_ptr<PipelineLayoutObject>> pipelineLayoutCache;
+    std::map<std::string, std::weak_ptr<PipelineObject>> pipelineCacheByKey;
+};
+
+/// Sends the uploads and the recordings as one command buffer; the queue's mutex is held by the caller.
+struct SubmitExtras {
+    VkSemaphore signal = VK_NULL_HANDLE;  // binary, for presentation
+    TextureObject* present = nullptr;     // brought into the layout for presentation at the end
+};
+struct CommandBufferObject;
+Result<Submission> submitLocked(DeviceObject& device, std::span<const CommandBuffer> commandBuffers,
+                                const SubmitExtras& extras);
+
+Result<std::shared_ptr<BindGroupLayoutObject>> makeBindGroupLayout(const std::shared_ptr<DeviceObject>& device,
+                                                                   const BindGroupLayoutDescriptor& descriptor);
+Result<std::shared_ptr<PipelineLayoutObject>> makePipelineLayout(
+    const std::shared_ptr<DeviceObject>& device, const std::string& label,
+    std::vector<std::shared_ptr<BindGroupLayoutObject>> sets, std::uint32_t pushConstantsSize);
+
+}  // namespace pelage::rhi::detail

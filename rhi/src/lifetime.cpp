@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: MIT
+// How objects end: what the queue may still use waits in the graveyard for its timeline value.
+#include "device_object.hpp"
+#include "recording.hpp"
+
+#include <algorithm>
+
+namespace pelage::rhi {
+namespace detail {
+
+DeviceObject::~DeviceObject() {
+    if (handle == VK_NULL_HANDLE) return;
+    const auto& f = functions;
+    if (f.vkDeviceWaitIdle != nullptr && queue.timeline != VK_NULL_HANDLE) {
+        f.vkDeviceWaitIdle(handle);
+        queue.uploads.reset();  // writes that no submission carried are dropped
+        while (!graves.empty()) {
+            auto grave = std::move(graves.front());
+            graves.pop_front();
+            grave.destroy(*this);
+        }
+        for (auto* slots : {&queue.running, &queue.idle})
+            for (const auto& slot : *slots) f.vkDestroyCommandPool(handle, slot.pool, nullptr);
+        for (const auto& chunk : queue.staging) {
+            f.vkDestroyBuffer(handle, chunk.buffer, nullptr);
+            memory.release(chunk.allocation);
+        }
+        for (auto* pool : pools) f.vkDestroyDescriptorPool(handle, pool, nullptr);
+        if (pipelineCache != VK_NULL_HANDLE) f.vkDestroyPipelineCache(handle, pipelineCache, nullptr);
+        f.vkDestroySemaphore(handle, queue.timeline, nullptr);
+        memory.close();
+    }
+    if (f.vkDestroyDevice != nullptr) f.vkDestroyDevice(handle, nullptr);
+}
+
+void DeviceObject::bury(std::uint64_t value, std::function<void(DeviceObject&)> destroy) {
+    if (value <= knownCompleted.load(std::memory_order_relaxed)) {
+        destroy(*this);
+        return;
+    }
+    const std::lock_guard lock(graveMutex);
+    graves.push_back({value, std::move(destroy)});
+}
+
+std::uint64_t DeviceObject::completed() {
+    std::uint64_t value = 0;
+    if (functions.vkGetSemaphoreCounterValue(handle, queue.timeline, &value) != VK_SUCCESS) {
+        lost = true;
+        return knownCompleted;
+    }
+    std::uint64_t known = knownCompleted;
+    while (known < value && !knownCompleted.compare_exchange_weak(known, value)) {}
+    return std::max(known, value);
+}
+
+void DeviceObject::collect() {
+    const std::uint64_t value = completed();
+    std::vector<Grave> ready;
+    {
+        const std::lock_guard lock(graveMutex);
+        // Values arrive nearly in order; a later one only delays those behind it by a little.
+        while (!graves.empty() && graves.front().value <= value) {
+            ready.push_back(std::move(graves.front()));
+            graves.pop_front();
+        }
+    }
+    for (auto& grave : ready) grave.destroy(*this);
+}
+
+void DeviceObject::nameObject(VkObjectType type, std::uint64_t object, const std::string& name) const {
+    const auto& instance = *adapter->instance;
+    if (!instance.debugUtils || instance.vk.vkSetDebugUtilsObjectNameEXT == nullptr || name.empty()) return;
+    VkDebugUtilsObjectNameInfoEXT info = {VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT};
+    info.objectType = type;
+    info.objectHandle = object;
+    info.pObjectName = name.c_str();
+    instance.vk.vkSetDebugUtilsObjectNameEXT(handle, &info);
+}
+
+Result<std::pair<VkDescriptorSet, VkDescriptorPool>> DeviceObject::allocateSet(VkDescriptorSetLayout layout,
+                                                                               const std::string& object) {
+    const std::lock_guard lock(poolMutex);
+    VkDescriptorSetAllocateInfo info = {VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
+    info.descriptorSetCount = 1;
+    info.pSetLayouts = &layout;
+    VkDescriptorSet set = VK_NULL_HANDLE;
+    for (std::size_t i = pools.size(); i-- > 0;) {
+        info.descriptorPool = pools[i];
+        if (functions.vkAllocateDescriptorSets(handle, &info, &set) == VK_SUCCESS) return std::pair(set, pools[i]);
+    }
+    constexpr std::uint32_t sets = 256;
+    const VkDescriptorPoolSize sizes[] = {
+        {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, sets * 4}, {VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC, sets},
+        {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, sets * 8}, {VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC, sets},
+        {VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE, sets * 8},  {VK_DESCRIPTOR_TYPE_STORAGE_IMAGE, sets * 4},
+        {VK_DESCRIPTOR_TYPE_SAMPLER, sets * 4}};
+    VkDescriptorPoolCreateInfo pool = {VK_STRUCTURE_TYPE_DESCRIPTOR_POOL_CREATE_INFO};
+    pool.flags = VK_DESCRIPTOR_POOL_CREATE_FREE_DESCRIPTOR_SET_BIT;
+    pool.maxSets = sets;
+    pool.poolSizeCount = static_cast<std::uint32_t>(std::size(sizes));
+    pool.pPoolSizes = sizes;
+    if (const auto r = functions.vkCreateDescriptorPool(handle, &pool, nullptr, &info.descriptorPool); r != VK_SUCCESS)
+        return forward(vulkanError(r, "vkCreateDescriptorPool", object));
+    pools.push_back(info.descriptorPool);
+    if (const auto r = functions.vkAllocateDescriptorSets(handle, &info, &set); r != VK_SUCCESS)
+        return forward(vulkanError(r, "vkAllocateDescriptorSets", object));
+    return std::pair(set, info.descriptorPool);
+}
+
+void DeviceObject::freeSet(VkDescriptorSet set, VkDescriptorPool pool) {
+    const std::lock_guard lock(poolMutex);
+    functions.vkFreeDescriptorSets(handle, pool, 1, &set);
+}
+
+}  // namespace detail
+
+void Device::collect() const {
+    if (object_) object_->collect();
+}
+
+}  // namespace pelage::rhi

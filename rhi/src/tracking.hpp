@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: MIT
+// Barriers, without a device. Each resource remembers its last write and everything that has read it since; a use at a
+// scope boundary turns that memory into at most one entry of the boundary's single vkCmdPipelineBarrier2.
+//
+//   read after write       a barrier unless this reader's stages and accesses already see the write
+//   write after anything   a barrier from the writer and *every* reader since
+//   other layout           an image barrier; the transition counts as a write that ends in the stages it was made for
+//   read after read        nothing
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "vk.hpp"
+
+namespace pelage::rhi::detail {
+
+enum class UseKind : std::uint8_t {
+    VertexBuffer, IndexBuffer, UniformBuffer, StorageBufferRead, StorageBufferWrite, Sampled, StorageTextureRead,
+    StorageTextureWrite, ColorAttachment, ResolveTarget, DepthAttachment, ReadOnlyDepth, CopySource, CopyDestination,
+    QueryResolve, Present,
+};
+const char* name(UseKind kind);
+bool isWrite(UseKind kind);
+
+struct Access {
+    VkPipelineStageFlags2 stages = 0;
+    VkAccessFlags2 access = 0;
+    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    bool write = false;
+};
+/// `shaderStages` are those of the scope that can reach the binding; used by the kinds that shaders do.
+Access accessOf(UseKind kind, VkPipelineStageFlags2 shaderStages, bool depthFormat);
+/// May both stand in one scope? All reads in one layout may; so may storage writes beside storage writes.
+bool compatible(UseKind a, UseKind b, bool depthFormat);
+
+struct AccessState {
+    VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
+    VkPipelineStageFlags2 writeStages = 0, readStages = 0;
+    VkAccessFlags2 writeAccess = 0, readAccess = 0;  // readAccess: what the last write is visible to
+    bool operator==(const AccessState&) const = default;
+};
+
+struct Range {
+    std::uint32_t baseMip = 0, mips = 1, baseLayer = 0, layers = 1;
+    bool operator==(const Range&) const = default;
+    bool overlaps(const Range& o) const {
+        return baseMip < o.baseMip + o.mips && o.baseMip < baseMip + mips && baseLayer < o.baseLayer + o.layers &&
+               o.baseLayer < baseLayer + layers;
+    }
+};
+
+/// One state while all subresources agree, one per (layer, mip) after a partial use made them differ.
+struct TextureState {
+    std::uint32_t mips = 1, layers = 1;
+    VkImageAspectFlags aspects = VK_IMAGE_ASPECT_COLOR_BIT;
+    std::vector<AccessState> states = std::vector<AccessState>(1);
+};
+
+/// What one scope boundary needs.
+class BarrierBatch {
+public:
+    void use(AccessState& state, const Access& access);
+    void use(TextureState& state, VkImage image, const Range& range, const Access& access);
+    /// Everything waits for everything.
+    void full();
+    bool empty() const { return !memory_ && images_.empty(); }
+    void record(VkCommandBuffer commands, PFN_vkCmdPipelineBarrier2 call) const;
+    void clear();
+    const std::vector<VkImageMemoryBarrier2>& images() const { return images_; }
+    bool hasMemory() const { return memory_; }
+    const VkMemoryBarrier2& memory() const { return memoryBarrier_; }
+
+private:
+    bool step(AccessState& state, const Access& access, VkImageMemoryBarrier2& transition);
+    bool memory_ = false;
+    VkMemoryBarrier2 memoryBarrier_ = {};
+    std::vector<VkImageMemoryBarrier2> images_ = {};
+};
+
+}  // namespace pelage::rhi::detail

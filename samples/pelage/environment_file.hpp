@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: MIT
+// Surroundings by name or from an equirectangular picture.
+#pragma once
+
+#include "failure.hpp"
+
+#include <pelage/hair/scene.hpp>
+
+#include <string>
+
+namespace pelage::app {
+
+/// "none", "studio", or a path to an equirectangular .hdr or .exr.
+Outcome<hair::Environment> chooseEnvironment(const std::string& text);
+
+}  // namespace pelage::app

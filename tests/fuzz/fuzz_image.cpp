@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: MIT
+// libFuzzer entry point of decodeImage: no input may crash, leak or take memory out of proportion.
+#include <pelage/hair/load.hpp>
+
+#include <span>
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    (void)pelage::hair::decodeImage(std::as_bytes(std::span(data, size)), "fuzz", true);
+    return 0;
+}

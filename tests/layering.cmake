@@ -1,0 +1,20 @@
+# Fails when an include points back up the arrows: rhi <- passes, materials <- hair <- samples; json below all of them.
+# Vulkan is seen in rhi and, through its interop header, in the samples' window only.
+function(forbid folder pattern why)
+  file(GLOB_RECURSE files ${ROOT}/${folder}/*.hpp ${ROOT}/${folder}/*.cpp)
+  foreach(file ${files})
+    file(STRINGS ${file} hits REGEX "^#include [<\"]${pattern}")
+    if(hits)
+      message(SEND_ERROR "${file}: ${hits}: ${why}")
+    endif()
+  endforeach()
+endfunction()
+
+forbid(json "pelage/(rhi|passes|materials|hair)/" "json knows nothing above it")
+forbid(rhi "pelage/(json|passes|materials|hair)/" "rhi knows nothing above it")
+forbid(passes "pelage/(materials|hair)/" "passes may include rhi and json")
+forbid(materials "pelage/(passes|hair)/" "materials may include rhi and json")
+forbid(hair "pelage/reference/" "the real-time part never links the reference")
+foreach(folder json passes materials hair)
+  forbid(${folder} "(vulkan/|volk|pelage/rhi/vulkan.hpp)" "no Vulkan above rhi")
+endforeach()
