@@ -15,6 +15,9 @@ enum class Type { Bool, Number, Word };
 
 std::string_view name(Type type) { return type == Type::Bool ? "true or false" : type == Type::Number ? "a number" : "a word"; }
 
+// Properties are single precision: 0.1 in a condition must equal 0.1 in a file.
+double rounded(double number) { return static_cast<double>(static_cast<float>(number)); }
+
 struct Token {
     enum class Kind { End, Name, Number, Word, Symbol, Bad } kind = Kind::End;
     std::string_view text = {};
@@ -201,7 +204,7 @@ private:
                 if (!index) return {};
                 node.set.push_back(*index);
             } else {
-                node.set.push_back(element.number);
+                node.set.push_back(rounded(element.number));
             }
             lexer_.advance();
         } while (take(","));
@@ -237,7 +240,7 @@ private:
         Condition::Node node;
         Term term{0, Type::Number, here.at, nullptr, {}};
         if (here.kind == Token::Kind::Number) {
-            node.number = here.number;
+            node.number = rounded(here.number);
         } else if (here.kind == Token::Kind::Word) {
             node.operation = Operation::Word;
             term.type = Type::Word;

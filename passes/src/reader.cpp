@@ -133,9 +133,9 @@ private:
         }
         const Value* standard = value.find("default");
         const double given = standard && standard->isNumber() ? standard->number : -1;
-        info.defaultValue.number = wholeNumber(given, ~0U);
+        info.defaultValue.number = wholeNumber(given);
         const std::uint32_t set = info.defaultValue.number;
-        if (wholeNumber(given, info.max == ~0U ? 1 : ~0U) != set || set < info.min || set > info.max || set % info.multipleOf != 0) {
+        if (given != static_cast<double>(set) || set < info.min || set > info.max || set % info.multipleOf != 0) {
             wrongDefault("a whole number in " + std::to_string(info.min) + ".." + std::to_string(info.max) +
                          (info.multipleOf > 1 ? ", a multiple of " + std::to_string(info.multipleOf) : ""));
         }

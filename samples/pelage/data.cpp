@@ -14,7 +14,9 @@ namespace {
 
 constexpr std::string_view sceneEnding = ".scene.json";
 
-fs::path sceneDirectory() { return fs::path(dataDirectory()) / "samples" / "scenes"; }
+fs::path sceneDirectory() {
+    return fs::path(dataDirectory()) / "samples" / "scenes";
+}
 
 }  // namespace
 

@@ -71,7 +71,8 @@ Outcome<hair::Environment> fromExr(const std::string& path) {
         std::vector<float> rgb;
         rgb.reserve(row.size() * static_cast<std::size_t>(height) * 3);
         for (int y = window.min.y; y <= window.max.y; ++y) {
-            // OpenEXR addresses a pixel as base + x + y * stride: one row at a time needs no arithmetic on outside memory.
+            // OpenEXR addresses a pixel as base + x + y * stride: one row at a time needs no arithmetic on outside
+            // memory.
             file.setFrameBuffer(row.data() - window.min.x, 1, 0);
             file.readPixels(y);
             for (const Imf::Rgba& texel : row) rgb.insert(rgb.end(), {float(texel.r), float(texel.g), float(texel.b)});

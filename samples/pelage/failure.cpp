@@ -45,7 +45,9 @@ int report(const Failure& failure) {
     return exitFailed;
 }
 
-void warn(const std::string& text) { std::fprintf(stderr, "pelage: warning %s\n", oneLine(text).c_str()); }
+void warn(const std::string& text) {
+    std::fprintf(stderr, "pelage: warning %s\n", oneLine(text).c_str());
+}
 
 void warn(const Diagnostics& notes) {
     for (const Diagnostic& note : notes.items()) {

@@ -18,9 +18,9 @@ struct Failure {
 
     Failure() = default;
     explicit Failure(std::string text) : line(std::move(text)) {}
-    Failure(const Diagnostic& diagnostic);   // NOLINT(google-explicit-constructor): errors convert at every return
-    Failure(const Diagnostics& diagnostics); // NOLINT(google-explicit-constructor)
-    Failure(const rhi::Error& error);        // NOLINT(google-explicit-constructor)
+    Failure(const Diagnostic& diagnostic);    // NOLINT(google-explicit-constructor): errors convert at every return
+    Failure(const Diagnostics& diagnostics);  // NOLINT(google-explicit-constructor)
+    Failure(const rhi::Error& error);         // NOLINT(google-explicit-constructor)
 };
 
 template <class T>

@@ -65,8 +65,9 @@ private:
 Outcome<std::vector<std::string>> chosenScenes(const std::vector<std::string>& only) {
     const auto all = sceneNames();
     if (all.empty()) {
-        return tl::unexpected(Failure("A040: " + dataDirectory() +
-                                      "/samples/scenes has no scenes; set PELAGE_DATA to the source directory of Pelage"));
+        return tl::unexpected(
+            Failure("A040: " + dataDirectory() +
+                    "/samples/scenes has no scenes; set PELAGE_DATA to the source directory of Pelage"));
     }
     if (only.empty()) return all;
     for (const std::string& name : only) {

@@ -41,8 +41,9 @@ Outcome<void> openDevice(Gpu& gpu, const DeviceOptions& options, const rhi::Surf
     if (!adapter) {
         const std::string names = adapterNames(gpu.instance);
         if (options.name.empty() || names.empty()) {
-            return tl::unexpected(Failure(rhi::toString(adapter.error()) +
-                                          " Install a Vulkan 1.3 driver; mesa-vulkan-drivers has one that needs no GPU"));
+            return tl::unexpected(
+                Failure(rhi::toString(adapter.error()) +
+                        " Install a Vulkan 1.3 driver; mesa-vulkan-drivers has one that needs no GPU"));
         }
         return tl::unexpected(Failure("A030: no device has \"" + options.name + "\" in its name; there are " + names));
     }

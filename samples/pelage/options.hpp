@@ -22,7 +22,7 @@ struct Size {
 /// Options that change what is seen; shared by render, view, gallery and bench.
 struct StageOptions {
     std::string input = {};
-    std::string material = {};               // replaces the material of all hair
+    std::string material = {};                // replaces the material of all hair
     std::vector<std::string> overrides = {};  // "group.property=value", of all hair
     std::string camera = {};
     std::string size = {};

@@ -91,8 +91,8 @@ Outcome<void> writePicture(const std::string& path, const hair::Picture& picture
     const std::size_t texels = std::size_t{picture.width} * picture.height * 4;
     const bool png = path.ends_with(".png");
     if (png ? picture.display.size() != texels : picture.linear.size() != texels) {
-        return tl::unexpected(notWritten(path, std::string("the pass tree exports no ") +
-                                                   (png ? "\"LdrColor\"" : "\"HdrColor\"")));
+        return tl::unexpected(
+            notWritten(path, std::string("the pass tree exports no ") + (png ? "\"LdrColor\"" : "\"HdrColor\"")));
     }
     const std::string partial = path + ".part";
     std::error_code ignored;

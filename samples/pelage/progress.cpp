@@ -9,7 +9,9 @@ namespace pelage::app {
 
 Progress::Progress(std::size_t total) : total_(total), terminal_(isatty(STDOUT_FILENO) == 1) {}
 
-Progress::~Progress() { clear(); }
+Progress::~Progress() {
+    clear();
+}
 
 void Progress::clear() {
     if (!terminal_) return;
@@ -33,6 +35,8 @@ void Progress::done(const std::string& line) {
     std::fflush(stdout);
 }
 
-void Progress::skip() { ++finished_; }
+void Progress::skip() {
+    ++finished_;
+}
 
 }  // namespace pelage::app

@@ -15,7 +15,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-bool isSceneFile(const std::string& path) { return path.ends_with(".json"); }
+bool isSceneFile(const std::string& path) {
+    return path.ends_with(".json");
+}
 
 Outcome<hair::SceneFile> loadInput(const StageOptions& options, const Size& size, hair::Library& library,
                                    std::string& path) {
@@ -33,8 +35,8 @@ Outcome<hair::SceneFile> loadInput(const StageOptions& options, const Size& size
                 Failure("A002: there is no file and no shipped scene \"" + options.input + "\"; " + hint));
         }
     }
-    const float aspect = static_cast<float>(size.given() ? size.width : 1) /
-                         static_cast<float>(size.given() ? size.height : 1);
+    const float aspect =
+        static_cast<float>(size.given() ? size.width : 1) / static_cast<float>(size.given() ? size.height : 1);
     auto loaded = isSceneFile(path) ? hair::loadScene(path, library)
                                     : hair::sceneFromAsset(path, options.material, aspect, library);
     if (!loaded) return tl::unexpected(Failure(loaded.error()));

@@ -4,9 +4,9 @@
 
 #include <pelage/hair/load.hpp>
 
+#include <gtest/gtest.h>
 #include <cstring>
 #include <functional>
-#include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <random>
 
@@ -153,7 +153,9 @@ inline void damage(const Bytes& good, int rounds, const std::function<void(std::
 }
 
 inline void expectSound(const Geometry& g) {
-    const auto finite = [](const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); };
+    const auto finite = [](const glm::vec3& v) {
+        return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+    };
     for (const Vertex& v : g.vertices) {
         ASSERT_TRUE(finite(v.position) && finite(v.normal) && finite(v.tangent));
         ASSERT_NEAR(glm::length(v.normal), 1.0F, 1e-4F);

@@ -105,8 +105,8 @@ TEST(Gltf, ContainerFaults) {
     expectFault(with(8, 0xFFFFFFFF), "G002");
     expectFault(with(12, 0xFFFFFFFF), "G002");
     expectFault(with(20, 0x41414141), "G004");
-    const std::string deep = "{\"asset\":{\"version\":\"2.0\"},\"extras\":" + std::string(200000, '[') +
-                             std::string(200000, ']') + "}";
+    const std::string deep =
+        "{\"asset\":{\"version\":\"2.0\"},\"extras\":" + std::string(200000, '[') + std::string(200000, ']') + "}";
     expectFault(parseGltf(std::as_bytes(std::span(deep)), "x"), "G003");
 }
 
@@ -144,11 +144,12 @@ TEST(Gltf, AccessorsAreCheckedAgainstTheirBuffers) {
     expectFault(view(0, "byteStride", 16), "G008");
     expectFault(view(3, "byteLength", 100000), "G008");
     expectFault(readWith([](GlbFile& f) { f.primitive()["attributes"]["POSITION"] = 77; }), "G008");
-    expectFault(readWith([](GlbFile& f) {
-                    f.json["accessors"][0]["sparse"] = nlohmann::json::parse(
-                        R"({"count": 1, "indices": {"bufferView": 2, "componentType": 5123}, "values": {"bufferView": 0}})");
-                }),
-                "G017");
+    expectFault(
+        readWith([](GlbFile& f) {
+            f.json["accessors"][0]["sparse"] = nlohmann::json::parse(
+                R"({"count": 1, "indices": {"bufferView": 2, "componentType": 5123}, "values": {"bufferView": 0}})");
+        }),
+        "G017");
 }
 
 TEST(Gltf, ContentFaults) {

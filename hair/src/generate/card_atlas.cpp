@@ -9,7 +9,7 @@
 namespace pelage::hair {
 namespace {
 
-constexpr float kCellAspect = 8.0F;  // height to width, as cards are
+constexpr float kCellAspect = 8.0F;   // height to width, as cards are
 constexpr std::uint32_t kGutter = 2;  // texels that stay empty at the sides and below, against bleeding
 constexpr float kFill = 2.5F;  // summed widths of the strands drawn, in widths of the card: 1 - exp(-2.5) is covered
 constexpr float kStrandWidth = 1.35F;  // texels, at the root; the narrowest that a texel grid shows well
@@ -109,7 +109,8 @@ void CardAtlas::draw(std::uint32_t card, const Groom& groom, std::span<const std
             const float rest = std::clamp((strand.end - v) / 0.22F, 0.0F, 1.0F);
             const float half = 0.5F * base * (0.35F + 0.65F * rest) * std::min(std::sqrt(1 + slope * slope), 4.0F);
             const float low = std::max(x - half, left), high = std::min(x + half, right);
-            for (auto column = static_cast<std::int64_t>(std::floor(low)); static_cast<float>(column) < high; ++column) {
+            for (auto column = static_cast<std::int64_t>(std::floor(low)); static_cast<float>(column) < high;
+                 ++column) {
                 const auto texel = static_cast<float>(column);
                 const float part = std::min(high, texel + 1) - std::max(low, texel);
                 if (part <= 0) continue;
@@ -145,7 +146,8 @@ void CardAtlas::finish(Geometry& cards) {
     colour.srgb = true;
     colour.texels.assign(coverage_.size() * 4, 255);
     for (std::size_t i = 0; i < coverage_.size(); ++i) {
-        colour.texels[4 * i + 3] = static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(coverage_[i], 0.0F, 1.0F)));
+        colour.texels[4 * i + 3] =
+            static_cast<std::uint8_t>(std::lround(255.0F * std::clamp(coverage_[i], 0.0F, 1.0F)));
     }
     Image8& ids = cards.strandIdMap;
     ids.width = ids.height = size_;

@@ -25,8 +25,8 @@ private:
     Cell cellOf(std::uint32_t card) const;
 
     std::uint32_t size_, columns_ = 1, rows_ = 1;
-    std::vector<float> coverage_;       // size * size
-    std::vector<std::uint8_t> ids_;     // size * size; 0 where nothing is drawn
+    std::vector<float> coverage_;    // size * size
+    std::vector<std::uint8_t> ids_;  // size * size; 0 where nothing is drawn
 };
 
 }  // namespace pelage::hair

@@ -90,11 +90,9 @@ void placeMiddles(const Groom& groom, std::span<const std::uint32_t> members, Ca
             mean);
     };
     vec3 middle = strandOf(groom, members[0]).front();
-    meanOf(
-        [&](std::span<const vec3> strand, float start, vec3& value) {
-            return pointAtArc(strand, arcOf(frame, anchor) - start, value);
-        },
-        middle);
+    meanOf([&](std::span<const vec3> strand, float start,
+               vec3& value) { return pointAtArc(strand, arcOf(frame, anchor) - start, value); },
+           middle);
     frame.stations[anchor].middle = middle;
     vec3 move(0);
     for (std::size_t k = anchor + 1; k < count; ++k) {
@@ -122,8 +120,8 @@ vec3 tangentAt(const std::vector<Station>& stations, std::size_t k) {
     return reading::unitOr(stations[b].middle - stations[a].middle, vec3(0, -1, 0));
 }
 
-/// Cards face outward. Where the strand itself leads outward (at the root) that says nothing, so the frame starts at the
-/// station where it says most and is carried both ways.
+/// Cards face outward. Where the strand itself leads outward (at the root) that says nothing, so the frame starts at
+/// the station where it says most and is carried both ways.
 void orient(std::vector<Station>& stations, const vec3& center) {
     const std::size_t count = stations.size();
     std::vector<vec3> sides(count);
@@ -135,10 +133,8 @@ void orient(std::vector<Station>& stations, const vec3& center) {
     }
     const auto settle = [&](std::size_t k, const vec3& carried) {
         const vec3 t = tangentAt(stations, k);
-        vec3 own = sides[k];
-        if (glm::dot(own, carried) < 0) own = -own;
-        const float trust = glm::length(sides[k]);
-        stations[k].side = reading::perpendicularOr(glm::mix(carried, own, 0.5F * trust), t);
+        const float trust = glm::dot(sides[k], sides[k]);  // nothing where the strand leads outward, 1 where across
+        stations[k].side = reading::perpendicularOr(glm::mix(carried, sides[k], trust), t);
         stations[k].outward = glm::cross(stations[k].side, t);
     };
     const vec3 start = reading::perpendicularOr(sides[clearest], tangentAt(stations, clearest));
@@ -150,7 +146,7 @@ void orient(std::vector<Station>& stations, const vec3& center) {
 /// Width from the spread along `side`, rise and bend from a least-squares parabola through the strands.
 void measure(const Groom& groom, std::span<const std::uint32_t> members, CardFrame& frame) {
     const std::size_t count = frame.stations.size();
-    std::size_t firstMeasured = count;  // station with enough strands to tell
+    std::size_t firstMeasured = count;                         // station with enough strands to tell
     std::vector<std::array<double, 3>> few(count, {0, 0, 0});  // where there are not: their number, sums of y and x^2
     for (std::size_t k = 0; k < count; ++k) {
         Station& station = frame.stations[k];
@@ -234,7 +230,8 @@ CardFrame frameOf(const Groom& groom, std::span<const std::uint32_t> members, co
     frame.stations.resize(kStations);
     placeStarts(groom, members, frame);
     placeMiddles(groom, members, frame);
-    for (int pass = 0; pass < 4; ++pass) smoothMiddles(frame.stations);
+    // Enough to level curls of a few centimetres: those belong in the texture, not in the shape of the card.
+    for (int pass = 0; pass < 12; ++pass) smoothMiddles(frame.stations);
     orient(frame.stations, center);
     measure(groom, members, frame);
     for (int pass = 0; pass < 3; ++pass) smoothShape(frame.stations);

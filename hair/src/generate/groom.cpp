@@ -33,9 +33,12 @@ struct Curl {
 Curl curlOf(const GroomDescriptor& d) {
     const float segment = d.length / static_cast<float>(std::max(d.pointsPerStrand, 2U) - 1);
     switch (d.style) {
-        case Style::Wavy: return {std::max(0.027F, 4 * segment), 0.0042F, 0.25F};
-        case Style::Curly: return {std::max(0.025F, 4 * segment), 0.0095F, 1.0F};
-        default: return {};
+        case Style::Wavy:
+            return {std::max(0.027F, 4 * segment), 0.0042F, 0.25F};
+        case Style::Curly:
+            return {std::max(0.025F, 4 * segment), 0.0095F, 1.0F};
+        default:
+            return {};
     }
 }
 
@@ -171,7 +174,7 @@ private:
 
     /// The blend of the nearest guides, moved to this root, then gathered around the nearest one towards the tip.
     std::vector<vec3> followGuides(const Root& root, const Follow& follow, float share, bool flyaway,
-                              Random& random) const {
+                                   Random& random) const {
         const float gather = flyaway ? 0.1F : random.between(0.55F, 0.9F);
         const vec3 offset = 0.0035F * random.onSphere();
         const Guide& nearest = guides_[follow.guide[0]];
@@ -213,10 +216,14 @@ private:
 
 const char* nameOf(Style style) {
     switch (style) {
-        case Style::Straight: return "straight";
-        case Style::Wavy: return "wavy";
-        case Style::Curly: return "curly";
-        case Style::Ponytail: return "ponytail";
+        case Style::Straight:
+            return "straight";
+        case Style::Wavy:
+            return "wavy";
+        case Style::Curly:
+            return "curly";
+        case Style::Ponytail:
+            return "ponytail";
     }
     return "groom";
 }

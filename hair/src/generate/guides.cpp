@@ -80,7 +80,7 @@ std::vector<vec3> growGuide(const Root& root, float length, std::uint32_t points
     std::vector<vec3> curve = {root.position};
     vec3 p = root.position, direction = unit(comb + 0.40F * normal, normal);
     for (std::uint32_t k = 0; k < kSteps; ++k) {
-        const float s = step * static_cast<float>(k);                        // m from the root
+        const float s = step * static_cast<float>(k);  // m from the root
         const float falls = 1.0F - std::exp(-std::max(s - 0.015F, 0.0F) / 0.055F);
         const vec3 wanted = unit(glm::mix(comb, kDown + drift, falls) + offTheFace(p, root.side), kDown);
         direction = unit(glm::mix(direction, wanted, std::min(1.0F, step / 0.016F)), wanted);

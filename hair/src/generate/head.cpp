@@ -39,23 +39,23 @@ float carve(float a, float b, float k) {
 /// Everything before the ears. `x` is folded to one half: the head is symmetric.
 float faceFeatures(float d, const vec3& p) {
     const vec3 h(std::abs(p.x), p.y, p.z);
-    d = join(d, ellipsoid(h, {0.040F, 1.5600F, 0.0560F}, {0.026F, 0.024F, 0.026F}), 0.020F);   // cheekbone
+    d = join(d, ellipsoid(h, {0.040F, 1.5600F, 0.0560F}, {0.026F, 0.024F, 0.026F}), 0.020F);               // cheekbone
     d = join(d, limb(h, {0.010F, 1.6050F, 0.0830F}, {0.044F, 1.6060F, 0.0640F}, 0.011F, 0.009F), 0.016F);  // brow
-    d = carve(d, ellipsoid(h, {0.032F, 1.5880F, 0.0960F}, {0.019F, 0.0125F, 0.020F}), 0.014F);  // eye socket
-    d = join(d, ellipsoid(h, {0.0315F, 1.5880F, 0.0700F}, {0.0145F, 0.0125F, 0.0130F}), 0.004F);  // eye
-    d = join(d, limb(h, {0.0F, 1.5960F, 0.0870F}, {0.0F, 1.5540F, 0.1060F}, 0.0070F, 0.0105F), 0.012F);  // nose
+    d = carve(d, ellipsoid(h, {0.032F, 1.5880F, 0.0960F}, {0.019F, 0.0125F, 0.020F}), 0.014F);             // eye socket
+    d = join(d, ellipsoid(h, {0.0315F, 1.5880F, 0.0700F}, {0.0145F, 0.0125F, 0.0130F}), 0.004F);           // eye
+    d = join(d, limb(h, {0.0F, 1.5960F, 0.0870F}, {0.0F, 1.5540F, 0.1060F}, 0.0070F, 0.0105F), 0.012F);    // nose
     d = join(d, ellipsoid(h, {0.0115F, 1.5500F, 0.0950F}, {0.0075F, 0.0070F, 0.0100F}), 0.007F);  // nostril wing
-    d = join(d, ellipsoid(h, {0.0F, 1.5290F, 0.0830F}, {0.0230F, 0.0048F, 0.0115F}), 0.005F);  // upper lip
-    d = join(d, ellipsoid(h, {0.0F, 1.5195F, 0.0815F}, {0.0190F, 0.0055F, 0.0115F}), 0.004F);  // lower lip
-    d = join(d, ellipsoid(h, {0.0F, 1.4975F, 0.0690F}, {0.0210F, 0.0150F, 0.0175F}), 0.022F);  // chin
+    d = join(d, ellipsoid(h, {0.0F, 1.5290F, 0.0830F}, {0.0230F, 0.0048F, 0.0115F}), 0.005F);     // upper lip
+    d = join(d, ellipsoid(h, {0.0F, 1.5195F, 0.0815F}, {0.0190F, 0.0055F, 0.0115F}), 0.004F);     // lower lip
+    d = join(d, ellipsoid(h, {0.0F, 1.4975F, 0.0690F}, {0.0210F, 0.0150F, 0.0175F}), 0.022F);     // chin
     return d;
 }
 
 float skull(const vec3& p) {
     const vec3 h(std::abs(p.x), p.y, p.z);
-    float d = ellipsoid(p, {0, 1.6330F, -0.0150F}, {0.0750F, 0.0870F, 0.0950F});                    // cranium
-    d = join(d, ellipsoid(p, {0, 1.6350F, 0.0180F}, {0.0640F, 0.0640F, 0.0680F}), 0.030F);          // forehead
-    d = join(d, ellipsoid(p, {0, 1.5560F, 0.0210F}, {0.0560F, 0.0720F, 0.0640F}), 0.030F);          // face
+    float d = ellipsoid(p, {0, 1.6330F, -0.0150F}, {0.0750F, 0.0870F, 0.0950F});                          // cranium
+    d = join(d, ellipsoid(p, {0, 1.6350F, 0.0180F}, {0.0640F, 0.0640F, 0.0680F}), 0.030F);                // forehead
+    d = join(d, ellipsoid(p, {0, 1.5560F, 0.0210F}, {0.0560F, 0.0720F, 0.0640F}), 0.030F);                // face
     d = join(d, limb(h, {0.050F, 1.5450F, 0.002F}, {0.010F, 1.5000F, 0.0600F}, 0.014F, 0.013F), 0.030F);  // jaw
     if (p.z > 0.0F) d = faceFeatures(d, p);
     // The ear leans back and stands off the head.
@@ -70,8 +70,8 @@ float skull(const vec3& p) {
 float body(const vec3& p) {
     const vec3 h(std::abs(p.x), p.y, p.z);
     const float neck = limb(p, {0, 1.5600F, -0.0220F}, {0, 1.4100F, -0.0380F}, 0.0520F, 0.0570F);
-    float d = limb(h, {0.0F, 1.3800F, -0.0400F}, {0.1600F, 1.3560F, -0.0450F}, 0.0600F, 0.0540F);      // shoulder
-    d = join(d, ellipsoid(p, {0, 1.2900F, -0.0250F}, {0.1750F, 0.1050F, 0.0950F}), 0.050F);              // chest
+    float d = limb(h, {0.0F, 1.3800F, -0.0400F}, {0.1600F, 1.3560F, -0.0450F}, 0.0600F, 0.0540F);  // shoulder
+    d = join(d, ellipsoid(p, {0, 1.2900F, -0.0250F}, {0.1750F, 0.1050F, 0.0950F}), 0.050F);        // chest
     d = join(d, limb(h, {0.0200F, 1.4600F, -0.0550F}, {0.1200F, 1.3900F, -0.0480F}, 0.0340F, 0.0340F), 0.040F);
     d = join(d, neck, 0.035F);
     return carve(d, p.y - 1.2400F, 0.030F);  // the bust stands on a flat base with a rounded rim

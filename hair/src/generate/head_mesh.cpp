@@ -62,7 +62,9 @@ bool cellVertex(const Grid& g, std::size_t i, std::size_t j, std::size_t k, vec3
             const unsigned b = a | (1U << axis);
             if (b == a) continue;
             const auto index = [&](unsigned c) { return g.at(i + (c & 1), j + ((c >> 1) & 1), k + ((c >> 2) & 1)); };
-            const auto place = [&](unsigned c) { return g.corner(i + (c & 1), j + ((c >> 1) & 1), k + ((c >> 2) & 1)); };
+            const auto place = [&](unsigned c) {
+                return g.corner(i + (c & 1), j + ((c >> 1) & 1), k + ((c >> 2) & 1));
+            };
             const float va = g.values[index(a)], vb = g.values[index(b)];
             if ((va < 0) == (vb < 0)) continue;
             sum += glm::mix(place(a), place(b), va / (va - vb));

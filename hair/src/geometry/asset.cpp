@@ -52,9 +52,8 @@ Bounds boundsOf(const Groom& groom) {
 void scaleToMetres(Groom& groom, const std::string& path, Diagnostics& notes) {
     const float span = boundsOf(groom).span();
     if (span >= kLeastSpan && span <= kGreatestSpan) return;
-    const auto found = std::find_if(kFactors.begin(), kFactors.end(), [&](float f) {
-        return span * f >= 0.1F && span * f <= kGreatestSpan;
-    });
+    const auto found = std::find_if(kFactors.begin(), kFactors.end(),
+                                    [&](float f) { return span * f >= 0.1F && span * f <= kGreatestSpan; });
     const float factor = found != kFactors.end() ? *found : 0.6F / span;
     for (glm::vec3& p : groom.points) p *= factor;
     for (float& w : groom.widths) w *= factor;
@@ -124,8 +123,7 @@ std::string describeGroom(const Groom& groom) {
 std::string describeCards(const Geometry& g) {
     return "triangles " + std::to_string(g.indices.size() / 3) + "\nvertices  " + std::to_string(g.vertices.size()) +
            "\nislands   " + std::to_string(g.strandCount) + "\n" + boundsText(g.boundsMin, g.boundsMax) +
-           imageText("colour    ", g.colorMap) + imageText("strand ID ", g.strandIdMap) +
-           "direction from texture v\n";
+           imageText("colour    ", g.colorMap) + imageText("strand ID ", g.strandIdMap) + "direction from texture v\n";
 }
 
 }  // namespace

@@ -249,7 +249,9 @@ private:
                              ", expected less than its " + std::to_string(vertices) + " vertices",
                          kExportAgain);
         }
-        const auto at = [&](std::size_t i) { return first + (indexed ? list.index(i) : static_cast<std::uint32_t>(i)); };
+        const auto at = [&](std::size_t i) {
+            return first + (indexed ? list.index(i) : static_cast<std::uint32_t>(i));
+        };
         for (std::size_t t = 0; t < triangles; ++t) {
             std::array<std::uint32_t, 3> corner{};
             if (isList) {

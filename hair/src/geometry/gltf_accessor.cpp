@@ -12,35 +12,51 @@ using reading::fault;
 
 const char* typeName(int componentType) {
     switch (componentType) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE: return "BYTE";
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return "UNSIGNED_BYTE";
-        case TINYGLTF_COMPONENT_TYPE_SHORT: return "SHORT";
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return "UNSIGNED_SHORT";
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return "UNSIGNED_INT";
-        case TINYGLTF_COMPONENT_TYPE_FLOAT: return "FLOAT";
-        default: return "an unknown type";
+        case TINYGLTF_COMPONENT_TYPE_BYTE:
+            return "BYTE";
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            return "UNSIGNED_BYTE";
+        case TINYGLTF_COMPONENT_TYPE_SHORT:
+            return "SHORT";
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return "UNSIGNED_SHORT";
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+            return "UNSIGNED_INT";
+        case TINYGLTF_COMPONENT_TYPE_FLOAT:
+            return "FLOAT";
+        default:
+            return "an unknown type";
     }
 }
 
 std::size_t sizeOf(int componentType) {
     switch (componentType) {
         case TINYGLTF_COMPONENT_TYPE_BYTE:
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return 1;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            return 1;
         case TINYGLTF_COMPONENT_TYPE_SHORT:
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return 2;
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return 2;
         case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
-        case TINYGLTF_COMPONENT_TYPE_FLOAT: return 4;
-        default: return 0;
+        case TINYGLTF_COMPONENT_TYPE_FLOAT:
+            return 4;
+        default:
+            return 0;
     }
 }
 
 int componentsOf(int type) {
     switch (type) {
-        case TINYGLTF_TYPE_SCALAR: return 1;
-        case TINYGLTF_TYPE_VEC2: return 2;
-        case TINYGLTF_TYPE_VEC3: return 3;
-        case TINYGLTF_TYPE_VEC4: return 4;
-        default: return 0;
+        case TINYGLTF_TYPE_SCALAR:
+            return 1;
+        case TINYGLTF_TYPE_VEC2:
+            return 2;
+        case TINYGLTF_TYPE_VEC3:
+            return 3;
+        case TINYGLTF_TYPE_VEC4:
+            return 4;
+        default:
+            return 0;
     }
 }
 
@@ -72,21 +88,28 @@ float Elements::number(std::size_t i, int c) const {
         return normalized_ ? std::max(value / largest, -1.0F) : value;
     };
     switch (type_) {
-        case TINYGLTF_COMPONENT_TYPE_BYTE: return scaled(reading::valueAt<std::int8_t>(bytes_, at), 127.0F);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return scaled(reading::valueAt<std::uint8_t>(bytes_, at), 255.0F);
-        case TINYGLTF_COMPONENT_TYPE_SHORT: return scaled(reading::valueAt<std::int16_t>(bytes_, at), 32767.0F);
+        case TINYGLTF_COMPONENT_TYPE_BYTE:
+            return scaled(reading::valueAt<std::int8_t>(bytes_, at), 127.0F);
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            return scaled(reading::valueAt<std::uint8_t>(bytes_, at), 255.0F);
+        case TINYGLTF_COMPONENT_TYPE_SHORT:
+            return scaled(reading::valueAt<std::int16_t>(bytes_, at), 32767.0F);
         case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
             return scaled(reading::valueAt<std::uint16_t>(bytes_, at), 65535.0F);
-        default: return reading::valueAt<float>(bytes_, at);
+        default:
+            return reading::valueAt<float>(bytes_, at);
     }
 }
 
 std::uint32_t Elements::index(std::size_t i) const {
     const std::size_t at = i * stride_;
     switch (type_) {
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return reading::valueAt<std::uint8_t>(bytes_, at);
-        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return reading::valueAt<std::uint16_t>(bytes_, at);
-        default: return reading::valueAt<std::uint32_t>(bytes_, at);
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+            return reading::valueAt<std::uint8_t>(bytes_, at);
+        case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+            return reading::valueAt<std::uint16_t>(bytes_, at);
+        default:
+            return reading::valueAt<std::uint32_t>(bytes_, at);
     }
 }
 
@@ -110,8 +133,8 @@ Outcome<Elements> elements(const tinygltf::Model& model, int index, std::string_
                                     "export the mesh again"));
     }
     if (accessor.sparse.isSparse || accessor.bufferView < 0) {
-        return tl::unexpected(fault("G017", name, self + "is sparse or has no buffer view",
-                                    "export the mesh without sparse accessors"));
+        return tl::unexpected(
+            fault("G017", name, self + "is sparse or has no buffer view", "export the mesh without sparse accessors"));
     }
     const auto view = viewBytes(model, accessor.bufferView, name);
     if (!view) return tl::unexpected(view.error());
@@ -126,10 +149,9 @@ Outcome<Elements> elements(const tinygltf::Model& model, int index, std::string_
     const bool inside = reading::fits(accessor.byteOffset, 1, size, view->size()) &&
                         reading::fits(accessor.byteOffset + size, accessor.count - 1, stride, view->size());
     if (!inside) {
-        return outside("needs " + std::to_string(accessor.count) + " elements of " + std::to_string(size) +
-                       " bytes, " + std::to_string(stride) + " apart, from byte " +
-                       std::to_string(accessor.byteOffset) + ", but its buffer view has " +
-                       std::to_string(view->size()) + " bytes");
+        return outside("needs " + std::to_string(accessor.count) + " elements of " + std::to_string(size) + " bytes, " +
+                       std::to_string(stride) + " apart, from byte " + std::to_string(accessor.byteOffset) +
+                       ", but its buffer view has " + std::to_string(view->size()) + " bytes");
     }
     Elements out;
     out.bytes_ = view->subspan(accessor.byteOffset);

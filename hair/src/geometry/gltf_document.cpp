@@ -99,10 +99,9 @@ Outcome<std::string_view> jsonOfBinary(std::span<const std::byte> bytes, const s
                                     "export it as glTF 2.0"));
     }
     if (length > bytes.size()) {
-        return tl::unexpected(fault("G002", name,
-                                    "the header promises " + std::to_string(length) + " bytes, but the file has " +
-                                        size,
-                                    "the file is cut off: copy or export it again"));
+        return tl::unexpected(
+            fault("G002", name, "the header promises " + std::to_string(length) + " bytes, but the file has " + size,
+                  "the file is cut off: copy or export it again"));
     }
     if (reading::valueAt<std::uint32_t>(bytes, 16) != kJsonChunk || !reading::fits(20, jsonLength, 1, length)) {
         return tl::unexpected(fault("G002", name,
@@ -117,8 +116,8 @@ Outcome<std::string_view> jsonOfBinary(std::span<const std::byte> bytes, const s
         const bool isBin = reading::valueAt<std::uint32_t>(bytes, next + 4) == kBinChunk;
         if (isBin && !reading::fits(next + 8, binLength, 1, length)) {
             return tl::unexpected(fault("G002", name,
-                                        "the binary chunk promises " + std::to_string(binLength) +
-                                            " bytes, but only " + std::to_string(length - next - 8) + " follow",
+                                        "the binary chunk promises " + std::to_string(binLength) + " bytes, but only " +
+                                            std::to_string(length - next - 8) + " follow",
                                         "the file is cut off or damaged: export it again"));
         }
     }
@@ -161,10 +160,10 @@ Outcome<tinygltf::Model> readDocument(std::span<const std::byte> bytes, const st
         return tl::unexpected(fault("G002", name, "the file is larger than 4 GiB", "split the asset"));
     }
     if (const int depth = depthOf(json); depth > kMaxDepth) {
-        return tl::unexpected(fault("G003", name,
-                                    "the JSON is nested " + std::to_string(depth) + " deep, expected at most " +
-                                        std::to_string(kMaxDepth),
-                                    "remove deeply nested extras"));
+        return tl::unexpected(fault(
+            "G003", name,
+            "the JSON is nested " + std::to_string(depth) + " deep, expected at most " + std::to_string(kMaxDepth),
+            "remove deeply nested extras"));
     }
 
     Folder outside{folder, ""};
@@ -187,8 +186,8 @@ Outcome<tinygltf::Model> readDocument(std::span<const std::byte> bytes, const st
         error = e.what();
     }
     if (!good && !outside.missing.empty()) {
-        const std::string where = folder.empty() ? "this reader was given bytes without a folder"
-                                                 : "looked for " + outside.missing;
+        const std::string where =
+            folder.empty() ? "this reader was given bytes without a folder" : "looked for " + outside.missing;
         return tl::unexpected(fault("G005", name, "a buffer file that the glTF names cannot be read; " + where,
                                     "keep the .bin beside the .gltf, or export one .glb"));
     }

@@ -39,10 +39,10 @@ void layOut(Header& h) {
 
 Outcome<Header> readHeader(std::span<const std::byte> bytes, const std::string& name) {
     if (bytes.size() < kHeaderBytes) {
-        return tl::unexpected(fault("H001", name,
-                                    "the file has " + std::to_string(bytes.size()) +
-                                        " bytes, expected at least the 128 bytes of a HAIR header",
-                                    "the file is cut off or is no .hair file"));
+        return tl::unexpected(fault(
+            "H001", name,
+            "the file has " + std::to_string(bytes.size()) + " bytes, expected at least the 128 bytes of a HAIR header",
+            "the file is cut off or is no .hair file"));
     }
     if (std::memcmp(bytes.data(), "HAIR", 4) != 0) {
         const std::string found(reinterpret_cast<const char*>(bytes.data()), 4);

@@ -37,8 +37,8 @@ Outcome<Image8> decodeImage(std::span<const std::byte> bytes, const std::string&
     const auto unreadable = [&] {
         const char* why = stbi_failure_reason();
         return tl::unexpected(fault("I002", name,
-                                    "the image (" + std::to_string(bytes.size()) + " bytes) cannot be decoded: " +
-                                        (why != nullptr ? why : "unknown reason"),
+                                    "the image (" + std::to_string(bytes.size()) +
+                                        " bytes) cannot be decoded: " + (why != nullptr ? why : "unknown reason"),
                                     "expected PNG, JPEG, TGA or BMP; export the texture again"));
     };
     if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
@@ -51,10 +51,9 @@ Outcome<Image8> decodeImage(std::span<const std::byte> bytes, const std::string&
     const auto side = static_cast<int>(reading::kMaxImageSide);
     const std::string extent = std::to_string(width) + " x " + std::to_string(height);
     if (width < 1 || height < 1 || width > side || height > side) {
-        return tl::unexpected(fault("I003", name,
-                                    "the image is " + extent + " texels, expected 1 to " + std::to_string(side) +
-                                        " on each side",
-                                    "use a smaller texture"));
+        return tl::unexpected(fault(
+            "I003", name, "the image is " + extent + " texels, expected 1 to " + std::to_string(side) + " on each side",
+            "use a smaller texture"));
     }
     // The densest of these formats (1-bit PNG) packs some 8,000 texels a byte. More than that is a damaged header, and
     // decoding it would ask for a gigabyte to hold nothing.

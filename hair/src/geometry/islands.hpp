@@ -12,7 +12,8 @@ namespace pelage::hair::cards {
 void fillNormals(Geometry& cards);
 
 /// Vertex::tangent from the gradient of v over the triangles; where v has no gradient, `fallback` (one direction per
-/// vertex, may be empty or zero; its sense is corrected by the vertices that have both), then any perpendicular. Returns how many vertices had no gradient.
+/// vertex, may be empty or zero; its sense is corrected by the vertices that have both), then any perpendicular.
+/// Returns how many vertices had no gradient.
 std::uint32_t fillTangents(Geometry& cards, std::span<const glm::vec3> fallback);
 
 /// strandId, along and strandCount from islands: triangles joined by shared vertices, or across seams by

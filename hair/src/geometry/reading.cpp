@@ -75,8 +75,8 @@ Outcome<std::vector<std::byte>> readFile(const std::string& path, std::size_t li
     using reading::fault;
     std::error_code error;
     if (!std::filesystem::exists(path, error)) {
-        return tl::unexpected(fault("F001", path, "there is no such file",
-                                    "check the spelling and the folder the program runs in"));
+        return tl::unexpected(
+            fault("F001", path, "there is no such file", "check the spelling and the folder the program runs in"));
     }
     if (std::filesystem::is_directory(path, error)) {
         return tl::unexpected(fault("F001", path, "this is a folder, expected a file", "name a file inside it"));
@@ -95,8 +95,8 @@ Outcome<std::vector<std::byte>> readFile(const std::string& path, std::size_t li
         stream.read(reinterpret_cast<char*>(bytes.data() + used), static_cast<std::streamsize>(kBlock));
         bytes.resize(used + static_cast<std::size_t>(stream.gcount()));
         if (bytes.size() > limit) {
-            return tl::unexpected(fault("F002", path, "the file is larger than the limit of " +
-                                                          std::to_string(limit) + " bytes",
+            return tl::unexpected(fault("F002", path,
+                                        "the file is larger than the limit of " + std::to_string(limit) + " bytes",
                                         "split the asset, or remove what hair does not need from it"));
         }
     }

@@ -56,10 +56,10 @@ Outcome<Header> readHeader(std::span<const std::byte> bytes, const std::string& 
                                     "export the groom again"));
     }
     if (h.positions < kHeaderBytes) {
-        return tl::unexpected(fault("T005", name,
-                                    "positions start at byte " + std::to_string(h.positions) +
-                                        ", inside the header; expected 160 or more",
-                                    "the header is damaged: export the groom again"));
+        return tl::unexpected(fault(
+            "T005", name,
+            "positions start at byte " + std::to_string(h.positions) + ", inside the header; expected 160 or more",
+            "the header is damaged: export the groom again"));
     }
     const std::uint64_t points = std::uint64_t{h.strands} * h.pointsPerStrand;
     if (!reading::fits(h.positions, points, kPointBytes, bytes.size())) {

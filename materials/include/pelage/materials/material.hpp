@@ -50,6 +50,8 @@ struct ShaderUse {
     bool enabledByDefault = true;
 };
 
+struct Conversion;  // src/convert.hpp
+
 class MaterialType {
 public:
     /// Reads and links a type. `registry` must outlive nothing: what is needed is copied.
@@ -73,6 +75,7 @@ public:
     const Linked& linked() const { return *linked_; }
 
 private:
+    friend struct MaterialTypeReader;
     std::shared_ptr<const Linked> linked_;
 };
 
@@ -126,6 +129,8 @@ public:
     const CompiledMaterial& compile();
 
 private:
+    std::optional<Diagnostic> assign(std::string_view id, const std::function<Conversion(const Property&)>& from);
+
     std::shared_ptr<const MaterialType> type_;
     std::vector<Value> values_;          // by property index
     std::vector<bool> dirty_;

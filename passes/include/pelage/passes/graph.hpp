@@ -22,7 +22,8 @@ struct Targets {
     bool operator==(const Targets&) const = default;
 };
 
-class Graph;
+/// What a pass draws into; a host can make its pipelines for it before the first frame.
+Targets targetsOf(const Plan& plan, const PlanPass& pass);
 
 /// Given to the host when a raster pass wants its draws.
 struct RasterContext {
@@ -34,6 +35,7 @@ struct RasterContext {
     /// The bind group of set 1 for a pipeline's layout of that set: slots matched by shader resource name, samplers by
     /// their names ("s_linear", "s_nearest", "s_shadow", "s_linearRepeat"). Cached. An error names what no slot provides.
     std::function<rhi::Result<rhi::BindGroup>(const rhi::BindGroupLayout&)> bindGroup;
+    std::uint32_t draws = 0;  // the host adds what it draws; for PassReport
 };
 using DrawCallback = std::function<rhi::Result<void>(RasterContext&)>;
 

@@ -6,10 +6,12 @@
 #include <pelage/json/diagnostic.hpp>
 #include <pelage/rhi/types.hpp>
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pelage::passes {
@@ -50,6 +52,9 @@ struct HostDescription {
     DepthConvention depth = DepthConvention::Reversed;
     std::map<std::string, SettingValue> settings = {};      // those that differ from the defaults
     std::map<std::string, ImportDescription> imports = {};  // by name
+    /// Whether the device can make such an image; decides between "format" and "formatFallbacks". Empty: it can.
+    /// Graph::build fills it in.
+    std::function<bool(rhi::TextureFormat, rhi::TextureUsage, std::uint32_t samples)> supports = {};
 };
 
 struct Plan;
@@ -84,6 +89,8 @@ struct PlanResource {
     rhi::Extent3D extent = {};
     std::uint32_t samples = 1, layers = 1;
     bool cube = false, isBuffer = false;
+    /// Transient images with the same number share one texture: their lifetimes do not overlap. ~0 for the others.
+    std::uint32_t allocation = ~0U;
     rhi::TextureUsage usage = rhi::TextureUsage::None;  // gathered from the slots
     std::uint64_t bytes = 0;
     std::uint32_t firstPass = 0, lastPass = 0;  // indices into Plan::passes
@@ -118,9 +125,15 @@ struct Plan {
     std::map<std::string, std::uint32_t> exports = {};  // export name -> resource index
     std::vector<std::string> culled = {};      // "ToneMap: no export needs its result", "HairShadow: switched off …"
     std::map<std::string, std::uint32_t> viewCounts = {};
+    DepthConvention depth = DepthConvention::Reversed;
+    std::uint32_t allocations = 0;   // textures behind the transient images
+    std::uint64_t allocatedBytes = 0;  // of them; at most the sum over the transient resources
     Diagnostics warnings = {};
     /// Graphviz text of the compiled graph.
     std::string dot() const;
 };
+
+/// The text of a shipped tree ("hair_frame.pass.json") or of its schema ("passtree.schema.json"); empty when unknown.
+std::string_view shippedText(std::string_view file);
 
 }  // namespace pelage::passes

@@ -1,0 +1,347 @@
+// SPDX-License-Identifier: MIT
+#include "convert.hpp"
+#include "linker.hpp"
+
+#include <algorithm>
+
+namespace pelage::materials {
+
+std::string quoted(std::string_view text) {
+    std::string out = "'";
+    out.append(text).push_back('\'');
+    return out;
+}
+
+std::string text(json::Place place) { return std::to_string(place.line) + ":" + std::to_string(place.column); }
+
+bool sameShape(ValueType from, ValueType to) {
+    const auto isColor = [](ValueType type) { return type == ValueType::Color || type == ValueType::Float3; };
+    return from == to || (isColor(from) && isColor(to));
+}
+
+std::vector<std::string> propertyIds(const std::vector<Property>& properties) {
+    std::vector<std::string> out;
+    for (const Property& property : properties) out.push_back(property.id);
+    return out;
+}
+
+std::optional<std::size_t> MaterialType::Linked::indexOf(std::string_view propertyId) const {
+    for (std::size_t i = 0; i < properties.size(); ++i) {
+        if (properties[i].id == propertyId) return i;
+    }
+    return {};
+}
+
+std::string MaterialType::Linked::currentName(std::string_view propertyId) const {
+    std::string now(propertyId);
+    for (const VersionStep& step : versionSteps) {
+        for (const auto& [from, to] : step.renames) {
+            if (from == now) now = to;
+        }
+    }
+    return now;
+}
+
+MaterialType::Linked Linker::run() {
+    out_.name = description_.name;
+    out_.file = description_.file;
+    out_.version = description_.version;
+    linkProperties();
+    linkDefaults();
+    linkInputs();
+    linkOptions();
+    linkShaders();
+    linkConnections();
+    linkFunctors();
+    linkConditions();
+    reportUndriven();
+    linkVersions();
+    linkPresets();
+    if (!diagnostics_.hasErrors()) {
+        probeConnections();
+        probeFunctors();
+    }
+    diagnostics_.sortByPlace();
+    return std::move(out_);
+}
+
+void Linker::error(std::string code, json::Place place, std::string text, std::string hint) {
+    diagnostics_.add({Severity::Error, std::move(code), description_.file, place.line, place.column, std::move(text),
+                      std::move(hint)});
+}
+
+void Linker::warn(std::string code, json::Place place, std::string text, std::string hint) {
+    diagnostics_.add({Severity::Warning, std::move(code), description_.file, place.line, place.column, std::move(text),
+                      std::move(hint)});
+}
+
+std::string Linker::targetName(const Target& target) const {
+    switch (target.kind) {
+        case Target::Kind::Input: return "input." + out_.inputs[target.index].name;
+        case Target::Kind::Option: return "option." + out_.options[target.index].name;
+        case Target::Kind::ShaderEnabled: return "shader." + out_.shaders[target.index].name + ".enabled";
+        case Target::Kind::ShaderState: return "shader." + out_.shaders[target.index].name + ".state";
+        case Target::Kind::None: break;
+    }
+    return "nothing";
+}
+
+void Linker::linkProperties() {
+    for (std::size_t i = 0; i < description_.groups.size(); ++i) {
+        for (std::size_t k = 0; k < i; ++k) {
+            if (description_.groups[k].text != description_.groups[i].text) continue;
+            error("M001", description_.groups[i].place, "second group named " + quoted(description_.groups[i].text),
+                  "first at " + text(description_.groups[k].place));
+            break;
+        }
+    }
+    std::map<std::string, json::Place> seen;
+    for (const PropertyDescription& description : description_.properties) {
+        const auto [first, isNew] = seen.emplace(description.property.id, description.name.place);
+        if (!isNew)
+            error("M001", description.name.place, "second property named " + quoted(description.property.id),
+                  "first at " + text(first->second));
+        out_.properties.push_back(description.property);
+    }
+    propertyUsed_.assign(out_.properties.size(), false);
+}
+
+void Linker::linkDefaults() {
+    for (std::size_t i = 0; i < out_.properties.size(); ++i) {
+        Property& property = out_.properties[i];
+        const PropertyDescription& description = description_.properties[i];
+        if (property.type == ValueType::Color && property.srgb) {
+            for (std::optional<double>* bound : {&property.min, &property.max, &property.softMin, &property.softMax}) {
+                if (*bound) *bound = srgbToLinear(static_cast<float>(std::clamp(**bound, 0.0, 1e3)));
+            }
+        }
+        const Range range = rangeOf(property);
+        const double low = property.min.value_or(range.min), high = property.max.value_or(range.max);
+        const double softLow = property.softMin.value_or(low), softHigh = property.softMax.value_or(high);
+        if (low > high || softLow < low || softHigh > high || softLow > softHigh) {
+            error("M007", description.min ? description.min->place : description.name.place,
+                  "the range of " + quoted(property.id) + " is empty or its soft range leaves it",
+                  "needs min <= softMin < softMax <= max");
+            continue;
+        }
+        Conversion converted = convert(property, *description.defaultValue);
+        if (converted.value) property.defaultValue = *converted.value;
+        if (!converted.problem) continue;
+        const std::string code = converted.problem->code;
+        if (code == "V005") {
+            error("M005", description.defaultValue->place,
+                  "default " + converted.problem->text.substr(0, converted.problem->text.find(" is ")) + " of " +
+                      quoted(property.id) + " is outside " + shown(range.min) + ".." + shown(range.max));
+        } else {
+            error(code == "V004" ? "M008" : "M004", description.defaultValue->place, "default: " + converted.problem->text,
+                  converted.problem->hint);
+        }
+    }
+}
+
+void Linker::condition(const std::optional<Word>& expression, std::string_view key, std::size_t property,
+                       std::vector<Condition>& out) {
+    if (!expression) return;
+    Outcome<Condition> parsed = Condition::parse(expression->text, out_.properties);
+    if (parsed) {
+        for (const std::size_t read : parsed->reads()) propertyUsed_[read] = true;
+        out.push_back(std::move(*parsed));
+        return;
+    }
+    const Diagnostic& fault = parsed.error();
+    error(fault.code, {expression->place.line, expression->place.column + fault.column},
+          fault.text + ", in " + std::string(key) + " of " + quoted(out_.properties[property].id), fault.hint);
+}
+
+void Linker::linkConditions() {
+    out_.visibleWhen.resize(out_.properties.size());
+    out_.enabledWhen.resize(out_.properties.size());
+    const Word* group = nullptr;
+    for (std::size_t i = 0; i < out_.properties.size(); ++i) {
+        const PropertyDescription& description = description_.properties[i];
+        const bool isFirst = i == 0 || out_.properties[i - 1].group != out_.properties[i].group;
+        if (description.groupVisibleWhen && (isFirst || group)) {
+            const std::size_t before = diagnostics_.items().size();
+            condition(description.groupVisibleWhen, "visibleWhen of its group", i, out_.visibleWhen[i]);
+            // Say it once for the group.
+            group = diagnostics_.items().size() == before ? &*description.groupVisibleWhen : nullptr;
+        }
+        condition(description.visibleWhen, "visibleWhen", i, out_.visibleWhen[i]);
+        condition(description.enabledWhen, "enabledWhen", i, out_.enabledWhen[i]);
+    }
+}
+
+void Linker::linkInputs() {
+    std::size_t numbers = 0, textures = 0;
+    for (const InputDescription& description : description_.inputs) {
+        out_.inputs.push_back(description.input);
+        out_.inputSlots.push_back(isTexture(description.input.type) ? textures++ : numbers++);
+    }
+}
+
+void Linker::linkOptions() {
+    for (const OptionDescription& description : description_.options) {
+        Option option = description.option;
+        const json::Value& value = *description.defaultValue;
+        if (option.type == ValueType::Enum) {
+            const auto found = std::find(option.words.begin(), option.words.end(), value.string);
+            if (found == option.words.end())
+                error("M008", value.place, quoted(value.string) + " is not a value of option " + quoted(option.name),
+                      nameHint(value.string, option.words));
+            option.defaultValue = found == option.words.end() ? 0 : found - option.words.begin();
+        } else if (option.type == ValueType::Bool) {
+            option.defaultValue = value.boolean ? 1 : 0;
+        } else if (option.min > option.max) {
+            error("M007", description.name.place, "the range of option " + quoted(option.name) + " is empty",
+                  "needs min <= max");
+        } else if (value.number < static_cast<double>(option.min) || value.number > static_cast<double>(option.max)) {
+            error("M005", value.place, "default " + shown(value.number) + " of option " + quoted(option.name) +
+                  " is outside " + std::to_string(option.min) + ".." + std::to_string(option.max));
+        } else {
+            option.defaultValue = static_cast<std::int64_t>(value.number);
+        }
+        out_.options.push_back(std::move(option));
+    }
+}
+
+void Linker::linkShaders() {
+    std::vector<bool> read(out_.options.size(), false);
+    for (const ShaderDescription& description : description_.shaders) {
+        ShaderUse shader = description.shader;
+        std::vector<std::size_t> indices;
+        for (std::size_t i = 0; description.allOptions && i < out_.options.size(); ++i) indices.push_back(i);
+        for (const Word& word : description.options) {
+            if (const auto index = indexOfName(out_.options, word.text)) {
+                indices.push_back(*index);
+            } else {
+                error("M011", word.place, "shader " + quoted(shader.name) + ": unknown option " + quoted(word.text),
+                      nameHint(word.text, namesOf(out_.options)));
+            }
+        }
+        for (const std::size_t index : indices) {
+            read[index] = true;
+            shader.options.push_back(out_.options[index].name);
+        }
+        out_.shaders.push_back(std::move(shader));
+        out_.shaderOptions.push_back(std::move(indices));
+    }
+    for (std::size_t i = 0; i < read.size(); ++i) {
+        if (!read[i])
+            warn("M032", description_.options[i].name.place, "no shader reads option " + quoted(out_.options[i].name),
+                 "list it in the \"options\" of a shader, or delete it");
+    }
+}
+
+bool Linker::drive(const Target& target, const Word& by, std::string what) {
+    for (const Driver& driver : drivers_) {
+        if (!(driver.target == target)) continue;
+        error("M012", by.place, quoted(targetName(target)) + " is driven twice: by " + driver.what + " and by " + what,
+              "first at " + text(driver.place));
+        return false;
+    }
+    drivers_.push_back({target, std::move(what), by.place});
+    return true;
+}
+
+bool Linker::optionFits(const Property& property, const Option& option, const Word& at) {
+    const bool isWhole = property.type == ValueType::Int || property.type == ValueType::Uint;
+    if (property.type != option.type && !(isWhole && option.type == ValueType::Int)) {
+        error("M013", at.place, "property " + quoted(property.id) + " is " + std::string(name(property.type)) + ", option " +
+              quoted(option.name) + " is " + std::string(name(option.type)), "change one type, or use a functor");
+        return false;
+    }
+    if (property.type == ValueType::Enum && property.words != option.words) {
+        std::vector<std::string> a = property.words, b = option.words;
+        std::sort(a.begin(), a.end());
+        std::sort(b.begin(), b.end());
+        error("M014", at.place, "values of " + quoted(property.id) + " and option " + quoted(option.name) +
+              (a == b ? " are in different order" : " differ"), "make the lists equal, or use a functor");
+        return false;
+    }
+    const Range range = rangeOf(property);
+    if (isWhole && (range.min < static_cast<double>(option.min) || range.max > static_cast<double>(option.max))) {
+        error("M009", at.place, "range " + shown(range.min) + ".." + shown(range.max) + " of " + quoted(property.id) +
+              " exceeds " + std::to_string(option.min) + ".." + std::to_string(option.max) + " of option " +
+              quoted(option.name), "give the property the option's \"min\" and \"max\"");
+        return false;
+    }
+    return true;
+}
+
+void Linker::linkConnections() {
+    for (std::size_t i = 0; i < out_.properties.size(); ++i) {
+        const Property& property = out_.properties[i];
+        const auto& connect = description_.properties[i].connect;
+        if (!connect) continue;
+        propertyUsed_[i] = true;
+        const Word& at = connect->target;
+        const std::string who = "property " + quoted(property.id);
+        Target target;
+        if (connect->kind == "input") {
+            const auto index = indexOfName(out_.inputs, at.text);
+            if (!index) {
+                error("M010", at.place, who + ": unknown input " + quoted(at.text), nameHint(at.text, namesOf(out_.inputs)));
+                continue;
+            }
+            const Input& input = out_.inputs[*index];
+            target = {Target::Kind::Input, *index};
+            if (!drive(target, at, who)) continue;
+            if (!sameShape(property.type, input.type)) {
+                error("M013", at.place, who + " is " + std::string(name(property.type)) + ", input " + quoted(input.name) +
+                      " is " + std::string(name(input.type)), "change one type, or use a functor");
+                continue;
+            }
+            if (isTexture(property.type) && property.srgb != input.srgb) {
+                error("M013", at.place, who + " is " + (property.srgb ? "srgb" : "linear") + ", input " + quoted(input.name) +
+                      " is " + (input.srgb ? "srgb" : "linear"), "give both the same \"space\"");
+                continue;
+            }
+        } else if (connect->kind == "option") {
+            const auto index = indexOfName(out_.options, at.text);
+            if (!index) {
+                error("M011", at.place, who + ": unknown option " + quoted(at.text), nameHint(at.text, namesOf(out_.options)));
+                continue;
+            }
+            target = {Target::Kind::Option, *index};
+            if (!drive(target, at, who) || !optionFits(property, out_.options[*index], at)) continue;
+        } else {
+            const auto index = indexOfName(out_.shaders, at.text);
+            if (!index) {
+                error("M015", at.place, who + ": unknown shader " + quoted(at.text), nameHint(at.text, namesOf(out_.shaders)));
+                continue;
+            }
+            target = {Target::Kind::ShaderEnabled, *index};
+            if (!drive(target, at, who)) continue;
+            if (property.type != ValueType::Bool) {
+                error("M013", at.place, who + " is " + std::string(name(property.type)) + ", enabling a shader needs bool");
+                continue;
+            }
+        }
+        out_.connections.push_back({i, target});
+    }
+}
+
+void Linker::reportUndriven() {
+    const auto isDriven = [&](const Target& target) {
+        return std::any_of(drivers_.begin(), drivers_.end(), [&](const Driver& driver) { return driver.target == target; });
+    };
+    // A functor that could not be linked leaves holes that are not the author's second mistake.
+    const bool complete = !diagnostics_.hasErrors();
+    for (std::size_t i = 0; complete && i < out_.inputs.size(); ++i) {
+        if (!isDriven({Target::Kind::Input, i}))
+            error("M018", description_.inputs[i].name.place, "nothing drives input " + quoted(out_.inputs[i].name),
+                  "connect a property or a functor output to it, or delete it");
+    }
+    for (std::size_t i = 0; complete && i < out_.options.size(); ++i) {
+        if (!isDriven({Target::Kind::Option, i}))
+            warn("M019", description_.options[i].name.place, "nothing drives option " + quoted(out_.options[i].name) +
+                 "; it keeps its default", "connect a property or a functor output to it, or delete it");
+    }
+    for (std::size_t i = 0; i < out_.properties.size(); ++i) {
+        if (!propertyUsed_[i])
+            warn("M016", description_.properties[i].name.place, "property " + quoted(out_.properties[i].id) + " has no effect",
+                 "connect it, feed it to a functor, or delete it");
+    }
+}
+
+}  // namespace pelage::materials

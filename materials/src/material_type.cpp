@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: MIT
+#include "linker.hpp"
+#include "schemas.hpp"
+
+namespace pelage::materials {
+namespace {
+
+using Parsed = Checked<std::shared_ptr<const MaterialType>>;
+
+// Phase A; errors end it, so that one mistake is not reported as ten.
+Checked<TypeDescription> readDescription(const json::Document& document) {
+    const Checked<json::Schema> schema = json::Schema::parse(materialTypeSchema(), "materialtype.schema.json");
+    if (!schema) return tl::unexpected<Diagnostics>(schema.error());
+    Diagnostics faults = schema->validate(document);
+    if (faults.hasErrors()) return tl::unexpected<Diagnostics>(std::move(faults));
+    return describe(document);
+}
+
+}  // namespace
+
+// `make` keeps MaterialType's only constructor private to this file.
+struct MaterialTypeReader {
+    static Parsed make(const Checked<json::Document>& document, const FunctorRegistry& registry) {
+        if (!document) return tl::unexpected<Diagnostics>(document.error());
+        const Checked<TypeDescription> description = readDescription(*document);
+        if (!description) return tl::unexpected<Diagnostics>(description.error());
+        Linker linker(*description, registry);
+        MaterialType::Linked linked = linker.run();
+        if (linker.diagnostics().hasErrors()) return tl::unexpected<Diagnostics>(std::move(linker.diagnostics()));
+        linked.warnings = std::move(linker.diagnostics());
+        auto type = std::make_shared<MaterialType>();
+        type->linked_ = std::make_shared<const MaterialType::Linked>(std::move(linked));
+        return std::shared_ptr<const MaterialType>(std::move(type));
+    }
+};
+
+Parsed MaterialType::parse(std::string_view text, const std::string& file, const FunctorRegistry& registry) {
+    return MaterialTypeReader::make(json::parse(text, file), registry);
+}
+
+Parsed MaterialType::load(const std::string& path, const FunctorRegistry& registry) {
+    return MaterialTypeReader::make(json::parseFile(path), registry);
+}
+
+const std::string& MaterialType::name() const { return linked_->name; }
+const std::string& MaterialType::file() const { return linked_->file; }
+int MaterialType::version() const { return linked_->version; }
+const std::vector<Property>& MaterialType::properties() const { return linked_->properties; }
+const std::vector<Input>& MaterialType::inputs() const { return linked_->inputs; }
+const std::vector<Option>& MaterialType::options() const { return linked_->options; }
+const std::vector<ShaderUse>& MaterialType::shaders() const { return linked_->shaders; }
+const std::vector<std::string>& MaterialType::presets() const { return linked_->presetNames; }
+const Diagnostics& MaterialType::warnings() const { return linked_->warnings; }
+
+const Property* MaterialType::find(std::string_view id) const {
+    const auto index = linked_->indexOf(id);
+    return index ? &linked_->properties[*index] : nullptr;
+}
+
+}  // namespace pelage::materials

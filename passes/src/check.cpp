@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: MIT
+// Faults of a tree that are there whatever the settings: words that name nothing, kinds that do not fit, and slots that
+// some setting would leave without a source. References between passes are in check_references.cpp.
+#include "check.hpp"
+
+#include <set>
+
+namespace pelage::passes {
+namespace {
+
+class Checker {
+public:
+    Checker(PassTree::Description& description, Reporter& reporter) : tree_(description), reporter_(reporter) {}
+
+    void run() {
+        passNames();
+        for (const PassDeclaration& pass : tree_.passes) {
+            passWords(pass);
+            for (const SlotDeclaration& slot : pass.slots) slotWords(pass, slot);
+            bindNames(pass);
+            targets(pass);
+        }
+        for (const AttachmentDeclaration& attachment : tree_.attachments) attachmentWords(attachment);
+        for (const ViewDeclaration& view : tree_.views) number(view.count, "count of view '" + view.name + "'");
+        sizeCircles();
+    }
+
+private:
+    void passNames() {
+        std::map<std::string, Place> seen;
+        for (const PassDeclaration& pass : tree_.passes) {
+            for (const std::string_view reserved : {"att", "const", "host", "setting"}) {
+                if (pass.name == reserved) {
+                    reporter_.error(pass.namePlace, "P001", "'" + pass.name + "' cannot be a pass name",
+                                    "reserved: att, const, host, setting");
+                }
+            }
+            const auto [first, isNew] = seen.emplace(pass.name, pass.namePlace);
+            if (!isNew) {
+                reporter_.error(pass.namePlace, "P002", "second pass named '" + pass.name + "'", "first at " + atPlace(first->second));
+            }
+        }
+    }
+
+    void passWords(const PassDeclaration& pass) {
+        const std::string title = "pass '" + pass.name + "'";
+        if (pass.kind == PassKind::Raster) {
+            if (pass.drawList.empty()) {
+                reporter_.error(pass.place, "P010", "raster " + title + " has no \"drawList\"");
+            } else if (!has(namesOf(tree_.drawLists), pass.drawList)) {
+                reporter_.error(pass.drawListPlace, "P011", title + ": unknown draw list '" + pass.drawList + "'",
+                                didYouMean(pass.drawList, namesOf(tree_.drawLists), "add it to \"drawLists\""));
+            }
+            if (pass.view.empty()) reporter_.error(pass.place, "P024", "raster " + title + " has no \"view\"");
+        } else {
+            if (!pass.drawList.empty())
+                reporter_.error(pass.drawListPlace, "P024", title + " draws no list: it is not a raster pass", "remove \"drawList\"");
+            if (pass.forEachLayer)
+                reporter_.error(pass.place, "P024", title + " cannot repeat for each view: it is not a raster pass",
+                                "remove \"forEachView\"");
+        }
+        if (!pass.view.empty() && !tree_.view(pass.view)) {
+            reporter_.error(pass.viewPlace, "P029", title + ": unknown view '" + pass.view + "'",
+                            didYouMean(pass.view, namesOf(tree_.views), "add it to \"views\""));
+        }
+        if ((pass.kind == PassKind::Fullscreen || pass.kind == PassKind::Compute) && pass.shader.file.empty()) {
+            reporter_.error(pass.place, "P012",
+                            (pass.kind == PassKind::Compute ? "compute " : "fullscreen ") + title + " has no \"shader\"");
+        }
+        if (!pass.dispatchLike.empty() && !pass.slot(pass.dispatchLike)) {
+            reporter_.error(pass.dispatchPlace, "P014", title + " has no slot '" + pass.dispatchLike + "'",
+                            didYouMean(pass.dispatchLike, pass.slotNames()));
+        }
+        for (const OrderedAfter& after : pass.after) {
+            if (!tree_.pass(after.pass)) {
+                reporter_.error(after.place, "P016", "unknown pass '" + after.pass + "'",
+                                didYouMean(after.pass, namesOf(tree_.passes)));
+            }
+        }
+        for (const ConstantDeclaration& constant : pass.constants) settingName(constant.value);
+    }
+
+    // What each kind of pass can do with an image.
+    static bool fits(PassKind kind, SlotUse use) {
+        switch (use) {
+            case SlotUse::Color:
+            case SlotUse::Depth: return kind == PassKind::Raster || kind == PassKind::Fullscreen;
+            case SlotUse::Sampled:
+            case SlotUse::Storage:
+            case SlotUse::Uniform: return kind != PassKind::Copy;
+            case SlotUse::Copy: return kind == PassKind::Copy;
+        }
+        return false;
+    }
+
+    void slotWords(const PassDeclaration& pass, const SlotDeclaration& slot) {
+        const std::string title = "slot '" + pass.name + "." + slot.name + "'";
+        const bool bound = slot.use == SlotUse::Sampled || slot.use == SlotUse::Storage || slot.use == SlotUse::Uniform;
+        const bool target = slot.use == SlotUse::Color || slot.use == SlotUse::Depth;
+        if (!fits(pass.kind, slot.use)) {
+            reporter_.error(slot.place, "P023", title + " is of a use that a " + word(pass.kind) + " pass cannot have");
+            return;
+        }
+        if ((slot.use == SlotUse::Sampled || slot.use == SlotUse::Uniform) && slot.access != SlotAccess::Read) {
+            reporter_.error(slot.place, "P023", title + " is " + (slot.use == SlotUse::Sampled ? "sampled" : "uniform") +
+                                                    ", which can only be read", "use \"storage\" or \"color\"");
+        }
+        if (slot.use == SlotUse::Color && slot.access == SlotAccess::Read) {
+            reporter_.error(slot.place, "P023", title + " is a color target that is only read", "use \"sampled\"");
+        }
+        if (bound && slot.bind.empty()) {
+            reporter_.error(slot.place, "P020", title + " is " + word(slot.use) + " but has no \"bind\"", "name the shader resource");
+        } else if (!bound && !slot.bind.empty()) {
+            reporter_.error(slot.bindPlace, "P020", title + " has a \"bind\" but is " + word(slot.use), "remove it");
+        }
+        if (slot.hasClear && target && slot.clearIsDepth != (slot.use == SlotUse::Depth)) {
+            reporter_.error(slot.clearPlace, "P027", title + " is a " + word(slot.use) + " target",
+                            slot.clearIsDepth ? "write [r, g, b, a]" : R"(write {"depth": "far"})");
+        } else if (slot.hasClear && (!target || slot.access == SlotAccess::Read)) {
+            reporter_.error(slot.clearPlace, "P027", title + " is not a target that can be cleared", "remove \"clear\"");
+        }
+        // A fullscreen triangle covers everything itself, unless it blends with what is there.
+        const bool covers = pass.kind == PassKind::Fullscreen && !slot.blendPremultiplied;
+        if (target && slot.access == SlotAccess::Write && !slot.hasClear && !slot.dontCare && !covers) {
+            reporter_.error(slot.place, "P021", title + " begins an image but says not how",
+                            R"(add "clear": ..., or "load": "dontCare" when every pixel is written)");
+        }
+        if (slot.connectPlace.line == 0 && !slot.optional) {
+            reporter_.error(slot.place, "P013", title + " is not connected", R"(connect it, or mark it "optional": true)");
+        }
+    }
+
+    void bindNames(const PassDeclaration& pass) {
+        std::map<std::string, std::string> seen;
+        for (const SlotDeclaration& slot : pass.slots) {
+            if (slot.bind.empty()) continue;
+            const auto [first, isNew] = seen.emplace(slot.bind, slot.name);
+            if (!isNew) {
+                reporter_.error(slot.bindPlace, "P050", "slots '" + first->second + "' and '" + slot.name + "' of pass '" + pass.name +
+                                                            "' bind the same resource '" + slot.bind + "'");
+            }
+        }
+    }
+
+    void targets(const PassDeclaration& pass) {
+        std::size_t colors = 0, depths = 0, sources = 0, copies = 0;
+        for (const SlotDeclaration& slot : pass.slots) {
+            if (slot.use == SlotUse::Color) ++colors;
+            if (slot.use == SlotUse::Depth) ++depths;
+            if (slot.use == SlotUse::Copy) ++(slot.access == SlotAccess::Read ? sources : copies);
+        }
+        if (depths > 1) reporter_.error(pass.place, "P051", "pass '" + pass.name + "' has more than one depth target");
+        if (colors > 8) reporter_.error(pass.place, "P051", "pass '" + pass.name + "' has more than 8 color targets");
+        const bool draws = pass.kind == PassKind::Raster || pass.kind == PassKind::Fullscreen;
+        // Slots of an unknown template are not there to be counted; P004 says so.
+        if (draws && colors + depths == 0 && !pass.slots.empty()) {
+            reporter_.error(pass.place, "P052", "pass '" + pass.name + "' draws but has neither color nor depth slot");
+        }
+        if (pass.kind == PassKind::Copy && (sources != 1 || copies != 1)) {
+            reporter_.error(pass.place, "P052", "copy pass '" + pass.name + "' needs one slot that reads and one that writes");
+        }
+    }
+
+    const SettingInfo* settingName(const NumberOrSetting& value) {
+        if (value.setting.empty()) return nullptr;
+        const SettingInfo* info = tree_.setting(value.setting);
+        if (!info) {
+            reporter_.error(value.place, "P041", "unknown setting '" + value.setting + "'",
+                            didYouMean(value.setting, namesOf(tree_.settingInfos), "add it to \"settings\""));
+        }
+        return info;
+    }
+
+    // A number of pixels, views, samples: a uint setting, or an enum whose words are numbers.
+    void number(const NumberOrSetting& value, const std::string& about, bool samples = false) {
+        const auto good = [samples](double n) { return !samples || n == 1 || n == 2 || n == 4 || n == 8; };
+        const SettingInfo* info = settingName(value);
+        if (value.setting.empty()) {
+            if (!good(value.number)) reporter_.error(value.place, "P043", about + " must be 1, 2, 4 or 8");
+            return;
+        }
+        if (!info) return;
+        bool fine = info->type == SettingValue::Type::Uint && !samples;
+        if (info->type == SettingValue::Type::Enum) {
+            fine = !info->words.empty();
+            for (const std::string& each : info->words) {
+                const std::optional<std::uint32_t> parsed = numberOfWord(each);
+                if (!parsed || !good(*parsed)) fine = false;
+            }
+        }
+        if (!fine) {
+            reporter_.error(value.place, "P043", "setting '" + value.setting + "' cannot give " + about,
+                            samples ? R"(use an enum of "1", "2", "4", "8")" : "use a uint, or an enum of numbers");
+        }
+    }
+
+    void attachmentWords(const AttachmentDeclaration& attachment) {
+        const std::string title = "'att." + attachment.name + "'";
+        number(attachment.samples, "samples of " + title, true);
+        number(attachment.size.width, "size of " + title);
+        number(attachment.size.height, "size of " + title);
+        if (!attachment.layersView.empty() && !tree_.view(attachment.layersView)) {
+            reporter_.error(attachment.layersPlace, "P029", "layers of " + title + ": unknown view '" + attachment.layersView + "'",
+                            didYouMean(attachment.layersView, namesOf(tree_.views), "add it to \"views\""));
+        }
+        const std::string& like = attachment.size.like;
+        if (attachment.size.kind != SizeDeclaration::Kind::Like || likeTarget(like)) return;
+        std::vector<std::string> known;
+        for (const ImportDeclaration& import : tree_.imports) known.push_back("host." + import.name);
+        for (const AttachmentDeclaration& other : tree_.attachments) known.push_back("att." + other.name);
+        reporter_.error(attachment.size.place, "P031", "size of " + title + " follows unknown '" + like + "'", didYouMean(like, known));
+    }
+
+    bool likeTarget(const std::string& like) const {
+        if (like.rfind("host.", 0) == 0) {
+            const ImportDeclaration* import = tree_.import(like.substr(5));
+            return import && import->kind != ImportDeclaration::Kind::Buffer;
+        }
+        return like.rfind("att.", 0) == 0 && tree_.attachment(like.substr(4));
+    }
+
+    void sizeCircles() {
+        std::set<std::string> done;
+        for (const AttachmentDeclaration& start : tree_.attachments) {
+            std::vector<const AttachmentDeclaration*> chain;
+            const AttachmentDeclaration* at = &start;
+            while (at && !done.count(at->name)) {
+                done.insert(at->name);
+                chain.push_back(at);
+                const bool follows = at->size.kind == SizeDeclaration::Kind::Like && at->size.like.rfind("att.", 0) == 0;
+                at = follows ? tree_.attachment(at->size.like.substr(4)) : nullptr;
+            }
+            std::string circle;
+            bool inside = false;
+            for (const AttachmentDeclaration* each : chain) {
+                inside = inside || each == at;
+                if (inside) circle += "att." + each->name + " -> ";
+            }
+            if (!circle.empty()) {
+                reporter_.error(at->size.place, "P032", "sizes follow each other in a circle: " + circle + "att." + at->name,
+                                "give one of them \"frame\", \"fixed\" or like a host image");
+            }
+        }
+    }
+
+    PassTree::Description& tree_;
+    Reporter& reporter_;
+};
+
+}  // namespace
+
+std::optional<std::uint32_t> numberOfWord(std::string_view word) {
+    if (word.empty() || word.size() > 6) return std::nullopt;
+    std::uint32_t value = 0;
+    for (const char c : word) {
+        if (c < '0' || c > '9') return std::nullopt;
+        value = value * 10 + static_cast<std::uint32_t>(c - '0');
+    }
+    return value;
+}
+
+std::string word(SlotUse use) {
+    static constexpr std::string_view words[] = {"color", "depth", "sampled", "storage", "uniform", "copy"};
+    return std::string(words[static_cast<std::size_t>(use)]);
+}
+
+std::string word(PassKind kind) {
+    static constexpr std::string_view words[] = {"raster", "fullscreen", "compute", "copy"};
+    return std::string(words[static_cast<std::size_t>(kind)]);
+}
+
+void checkDescription(PassTree::Description& description, Reporter& reporter) {
+    Checker(description, reporter).run();
+    checkReferences(description, reporter);
+    // Warnings about what is unused would only repeat an error that made it unused.
+    if (!reporter.failed()) warnUnused(description, reporter);
+}
+
+}  // namespace pelage::passes

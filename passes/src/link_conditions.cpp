@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: MIT
+#include "link.hpp"
+
+namespace pelage::passes {
+namespace {
+
+// The value in force, or nothing with H003 reported.
+std::optional<SettingValue> checkedSetting(const SettingDeclaration& declared, const SettingValue& given, Reporter& reporter) {
+    const SettingInfo& info = declared.info;
+    SettingValue value = given;
+    std::string expected;
+    if (given.type != info.type) {
+        expected = info.type == SettingValue::Type::Bool ? "a bool" : info.type == SettingValue::Type::Uint ? "a uint" : "a word";
+    } else if (info.type == SettingValue::Type::Bool) {
+        if (given.number > 1) expected = "0 or 1";
+    } else if (info.type == SettingValue::Type::Uint) {
+        if (given.number < info.min || given.number > info.max || given.number % info.multipleOf != 0) {
+            expected = std::to_string(info.min) + ".." + std::to_string(info.max);
+            if (info.multipleOf > 1) expected += ", a multiple of " + std::to_string(info.multipleOf);
+        }
+    } else {
+        // A word counts; without one, its index does.
+        if (value.word.empty() && value.number < info.words.size()) value.word = info.words[value.number];
+        const auto found = std::find(info.words.begin(), info.words.end(), value.word);
+        if (found == info.words.end()) {
+            for (const std::string& word : info.words) expected += (expected.empty() ? "one of " : ", ") + word;
+        } else {
+            value.number = static_cast<std::uint32_t>(found - info.words.begin());
+        }
+    }
+    if (expected.empty()) return value;
+    const std::string shown = given.type == SettingValue::Type::Enum ? "'" + given.word + "'" : std::to_string(given.number);
+    reporter.error(declared.place, "H003", "setting '" + info.name + "' cannot be " + shown + ": expected " + expected);
+    return std::nullopt;
+}
+
+}  // namespace
+
+double Linker::number(const NumberOrSetting& value) const {
+    if (value.setting.empty()) return value.number;
+    const auto found = conditions.settings.find(value.setting);
+    if (found == conditions.settings.end()) return 0;
+    if (found->second.type == SettingValue::Type::Enum) return numberOfWord(found->second.word).value_or(0);
+    return found->second.number;
+}
+
+double Linker::constant(const NumberOrSetting& value) const {
+    if (value.setting.empty()) return value.number;
+    const auto found = conditions.settings.find(value.setting);
+    return found == conditions.settings.end() ? 0.0 : found->second.number;
+}
+
+void Linker::evaluateConditions() {
+    if (host.extent.width == 0 || host.extent.height == 0) {
+        reporter.error({}, "H004", "the frame is " + std::to_string(host.extent.width) + " x " + std::to_string(host.extent.height),
+                       "build no plan while there is nothing to draw on");
+    }
+    for (const SettingDeclaration& declared : tree.settings) {
+        conditions.settings[declared.info.name] = declared.info.defaultValue;
+        const auto given = host.settings.find(declared.info.name);
+        if (given == host.settings.end()) continue;
+        if (const auto value = checkedSetting(declared, given->second, reporter)) conditions.settings[declared.info.name] = *value;
+    }
+    for (const auto& [name, value] : host.settings) {
+        if (!tree.setting(name)) {
+            reporter.error({}, "H003", "the tree '" + tree.name + "' has no setting '" + name + "'",
+                           didYouMean(name, namesOf(tree.settingInfos)));
+        }
+    }
+    for (const ImportDeclaration& import : tree.imports) {
+        const auto lent = host.imports.find(import.name);
+        conditions.imports[import.name] = lent != host.imports.end() && lent->second.present;
+    }
+    for (const auto& [name, lent] : host.imports) {
+        if (!tree.import(name)) {
+            reporter.warning({}, "H005", "the tree '" + tree.name + "' takes no import '" + name + "'",
+                             didYouMean(name, namesOf(tree.imports)));
+        }
+    }
+    for (const ViewDeclaration& view : tree.views) plan.viewCounts[view.name] = wholeNumber(number(view.count));
+    plan.depth = host.depth;
+
+    for (const PassDeclaration& says : tree.passes) {
+        LinkedPass pass{.says = &says};
+        for (const SlotDeclaration& slot : says.slots) pass.slots.push_back({.says = &slot});
+        if (!says.enabled) {
+            pass.enabled = false;
+            pass.whyOff = "\"enabled\" is false";
+        } else if (says.enabledWhen && !says.enabledWhen->evaluate(conditions)) {
+            pass.enabled = false;
+            pass.whyOff = "not (" + says.enabledWhen->text() + ")";
+        } else if (says.forEachLayer && plan.viewCounts[says.view] == 0) {
+            pass.enabled = false;
+            pass.whyOff = "there is no view '" + says.view + "'";
+        }
+        passes.push_back(std::move(pass));
+    }
+}
+
+LinkedPass* Linker::passNamed(std::string_view name) {
+    for (LinkedPass& pass : passes) {
+        if (pass.says->name == name) return &pass;
+    }
+    return nullptr;
+}
+
+const LinkedSlot* Linker::slotOf(const LinkedPass& pass, std::string_view name) const {
+    for (const LinkedSlot& slot : pass.slots) {
+        if (slot.says->name == name) return &slot;
+    }
+    return nullptr;
+}
+
+}  // namespace pelage::passes

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: MIT
+// The state of an encoder while it records.
+#pragma once
+
+#include "device_object.hpp"
+#include "recording.hpp"
+
+namespace pelage::rhi::detail {
+
+/// Merges the uses of one scope and finds conflicts.
+class ScopeBuilder {
+public:
+    /// The use that conflicts, or null.
+    const Use* add(const Use& use);
+    /// Moves the merged uses to the end of `to`; overlapping parts of one texture are split first.
+    packet::Scope take(std::vector<Use>& to);
+    void clear();
+
+private:
+    std::vector<Use> uses_;
+    std::unordered_map<const Object*, std::int32_t> first_;
+};
+
+struct BoundGroup {
+    std::shared_ptr<BindGroupObject> group;
+    std::vector<std::uint32_t> offsets;
+    bool dirty = false;
+};
+
+/// What a pass has set so far.
+struct PassState {
+    std::shared_ptr<PipelineObject> pipeline;
+    std::vector<BoundGroup> groups;
+    PipelineLayoutObject* boundLayout = nullptr;
+    std::array<std::byte, 256> push = {};
+    bool pushDirty = true, groupsChanged = true;
+    struct Vertex {
+        std::shared_ptr<BufferObject> buffer;
+        std::uint64_t offset = 0;
+    };
+    std::vector<Vertex> vertexBuffers;
+    Vertex index;
+    IndexFormat indexFormat = IndexFormat::Uint32;
+    std::uint32_t commands = 0;  // draws or dispatches, for messages
+    std::uint32_t debugGroups = 0;
+    std::size_t scopePacket = 0;
+    packet::Scope lastDispatchScope;
+    bool reuseScope = false;
+    std::unordered_set<const BindGroupObject*> merged;
+    std::optional<TimestampWrites> timestamps;
+    std::string context;
+};
+
+struct EncoderObject {
+    explicit EncoderObject(std::shared_ptr<DeviceObject> owner, std::string name)
+        : device(std::move(owner)), label(std::move(name)) {
+        recording.label = label;
+    }
+    enum class State : std::uint8_t { Open, RenderPass, ComputePass, Finished };
+
+    /// Keeps the first error, with where it happened.
+    void fail(const Error& error, std::string innermost = {});
+    void check(const Result<void>& result, std::string innermost = {}) {
+        if (!result) fail(result.error(), std::move(innermost));
+    }
+    /// True when the call may go on; otherwise the reason is kept.
+    bool ready(State wanted, std::string_view call);
+
+    template <class H>
+    bool accept(const H& handle, std::string_view what) {
+        if (auto ok = needHandle(handle, what); !ok) return fail(ok.error()), false;
+        if (auto ok = needSameDevice(*handle.get(), *device); !ok) return fail(ok.error()), false;
+        recording.keep(handle);
+        return true;
+    }
+    void add(Packet packet) { recording.packets.push_back(std::move(packet)); }
+    bool use(const Use& use, const std::string& innermost = {});
+    void closeScope(std::size_t packetIndex);
+
+    // Shared by render and compute passes.
+    void setBindGroup(std::uint32_t index, const BindGroup& group, std::span<const std::uint32_t> offsets);
+    void setPushConstants(std::uint32_t offset, std::span<const std::byte> bytes);
+    void pushDebugGroup(std::string_view text);
+    void popDebugGroup();
+    bool timestamps(const std::optional<TimestampWrites>& writes);
+    bool queryIndex(const QuerySet& set, QueryType type, std::uint32_t index, std::string_view what);
+    /// Binds what the pipeline needs and merges its groups into the scope. False after an error.
+    bool flushBindings(VkPipelineBindPoint point, VkPipelineStageFlags2 stages, const std::string& command);
+    void beginPass(State state, std::string context, const std::string& passLabel,
+                   const std::optional<TimestampWrites>& writes);
+    void endPass();
+
+    std::shared_ptr<DeviceObject> device;
+    std::string label;
+    Recording recording;
+    State state = State::Open;
+    std::optional<Error> error;
+    std::optional<CommandBuffer> finished;
+    PassState pass;
+    ScopeBuilder scope;
+    CommandBuffer::Counters counters;
+    std::uint32_t debugGroups = 0;
+};
+
+}  // namespace pelage::rhi::detail

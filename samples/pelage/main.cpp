@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: MIT
+// pelage: renders, shows, checks and measures hair from the command line.
+#include "commands.hpp"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <exception>
+
+namespace pelage::app {
+
+namespace {
+
+void addDevice(CLI::App& command, DeviceOptions& options) {
+    command.add_option("--device", options.name, "Part of the device's name, for example llvmpipe")->type_name("NAME");
+    command.add_flag("--validation", options.validation, "Run under the Vulkan validation layer; its errors fail");
+}
+
+void addStage(CLI::App& command, StageOptions& options) {
+    command.add_option("--material", options.material, "Material of all hair: preset, type, or *.material.json");
+    command.add_option("--set", options.overrides, "Property of all hair, group.property=value (repeatable)")
+        ->type_name("NAME=VALUE")
+        ->allow_extra_args(false);
+    command.add_option("--camera", options.camera, "\"ex,ey,ez;tx,ty,tz[;fov_deg]\" in metres and degrees");
+    command.add_option("--size", options.size, "Width and height in pixels")->type_name("WxH");
+    command.add_option("--frame", options.frame, "Pass tree: name or *.pass.json");
+    command.add_option("--setting", options.settings, "Setting of the pass tree, name=value (repeatable)")
+        ->type_name("NAME=VALUE")
+        ->allow_extra_args(false);
+    command.add_option("--background", options.background, "\"r,g,b\" scene-linear or \"#rrggbb\" sRGB");
+    command.add_option("--exposure", options.exposure, "Factor before the display transform")
+        ->check(CLI::Range(0.0, 10000.0));
+    command.add_option("--environment", options.environment, "none, studio, or an equirectangular .hdr or .exr");
+}
+
+constexpr const char* inputHelp = "A *.scene.json, .glb, .gltf, .tfx or .hair file, or the name of a shipped scene";
+
+void addRender(CLI::App& app, RenderOptions& options, int& result) {
+    CLI::App* command = app.add_subcommand("render", "Render one picture");
+    command->add_option("input", options.stage.input, inputHelp)->required();
+    command->add_option("-o,--output", options.outputs, ".png (display) or .exr (scene-linear); repeatable")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+    command->add_flag("--report", options.report, "Print time and work of each pass, and bytes of each attachment");
+    addStage(*command, options.stage);
+    addDevice(*command, options.device);
+    command->callback([&] { result = render(options); });
+}
+
+void addView(CLI::App& app, ViewOptions& options, int& result) {
+    CLI::App* command = app.add_subcommand("view", "Open a window; changed files are read again");
+    command->add_option("input", options.stage.input, inputHelp)->required();
+    command->add_option("--frames", options.frames, "End after so many frames")->type_name("N");
+    addStage(*command, options.stage);
+    addDevice(*command, options.device);
+    command->footer("Drag turns, the wheel comes nearer, R resets, S saves a PNG, Esc ends.");
+    command->callback([&] { result = view(options); });
+}
+
+void addGallery(CLI::App& app, GalleryOptions& options, int& result) {
+    CLI::App* command = app.add_subcommand("gallery", "Render every shipped scene, and the assets given");
+    command->add_option("assets", options.assets, "More to render: scenes or hair files");
+    command->add_option("-o,--output", options.directory, "Directory for the pictures")->capture_default_str();
+    command->add_option("--only", options.only, "Only this shipped scene (repeatable)")->allow_extra_args(false);
+    addStage(*command, options.stage);
+    addDevice(*command, options.device);
+    command->callback([&] { result = gallery(options); });
+}
+
+void addBench(CLI::App& app, BenchOptions& options, int& result) {
+    CLI::App* command = app.add_subcommand("bench", "Compare the shading models: time as ratios, and work");
+    options.stage.input = "wavy_brown";
+    command->add_option("input", options.stage.input, inputHelp)->capture_default_str();
+    command->add_option("--repeat", options.repeat, "Frames of each model")
+        ->capture_default_str()
+        ->check(CLI::Range(1, 10000));
+    command->add_option("--json", options.json, "Write the results here as well")->type_name("FILE");
+    addStage(*command, options.stage);
+    addDevice(*command, options.device);
+    command->callback([&] { result = bench(options); });
+}
+
+void addFiles(CLI::App& app, const char* name, const char* help, std::vector<std::string>& files, int& result,
+              int (*run)(const std::vector<std::string>&)) {
+    CLI::App* command = app.add_subcommand(name, help);
+    command->add_option("files", files, "Files to read")->required();
+    command->callback([&files, &result, run] { result = run(files); });
+}
+
+int run(int argc, char** argv) {
+    CLI::App app("Pelage, a hair renderer");
+    app.require_subcommand(1);
+    app.set_version_flag("--version", "pelage 0.1.0");
+    int result = exitOk;
+    RenderOptions renderOptions;
+    ViewOptions viewOptions;
+    GalleryOptions galleryOptions;
+    BenchOptions benchOptions;
+    std::vector<std::string> files;
+    addRender(app, renderOptions, result);
+    addView(app, viewOptions, result);
+    addGallery(app, galleryOptions, result);
+    addBench(app, benchOptions, result);
+    addFiles(app, "info", "Say what is in hair files", files, result, info);
+    addFiles(app, "check", "Find faults in pass trees, material types, materials and scenes", files, result, check);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& help) {
+        return app.exit(help);  // --help and --version print to stdout
+    } catch (const CLI::ParseError& error) {
+        return report(Failure(std::string("A000: ") + error.what() + "; see pelage --help"));
+    }
+    return result;
+}
+
+}  // namespace
+
+}  // namespace pelage::app
+
+int main(int argc, char** argv) {
+    try {
+        return pelage::app::run(argc, argv);
+    } catch (const std::exception& error) {
+        return pelage::app::report(pelage::app::Failure(std::string("A099: ") + error.what()));
+    }
+}
