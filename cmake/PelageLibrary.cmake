@@ -5,6 +5,7 @@ function(pelage_compile_options target)
   set_target_properties(${target} PROPERTIES CXX_EXTENSIONS OFF POSITION_INDEPENDENT_CODE ON
     CXX_VISIBILITY_PRESET hidden VISIBILITY_INLINES_HIDDEN ON)
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wshadow -Wconversion -Wno-missing-field-initializers
+    -Wno-restrict  # gcc 12 warns of std::string concatenation itself (GCC bug 105651)
     $<$<BOOL:${PELAGE_WARNINGS_AS_ERRORS}>:-Werror>)
   if(PELAGE_SANITIZE)
     target_compile_options(${target} PUBLIC -fsanitize=${PELAGE_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)

@@ -11,6 +11,7 @@
 
 #include <charconv>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -76,6 +77,14 @@ std::optional<std::string> asText(const json::Value& value) {
             break;
     }
     return std::nullopt;
+}
+
+/// Text that is equal for values written alike.
+std::string keyOf(const json::Value& value) {
+    if (!value.isObject()) return asText(value).value_or("");
+    std::string key;
+    for (const json::Member& member : value.members) key += member.key + "=" + keyOf(member.value) + ";";
+    return key;
 }
 
 class SceneReader {
@@ -175,13 +184,16 @@ private:
             return nullptr;
         }
         const std::uint32_t subdivisions = uintOr(object, "subdivisions", 1);
-        if (generate) return parts::generate(request(*generate), subdivisions);
+        // Objects with the same source share one geometry, and so one upload.
+        const std::string key = std::to_string(subdivisions) + keyOf(asset ? *asset : *generate);
+        if (const auto known = geometries_.find(key); known != geometries_.end()) return known->second;
+        if (generate) return geometries_[key] = parts::generate(request(*generate), subdivisions);
         auto loaded = parts::loadGeometry(relative(asset->string), subdivisions, result_.notes);
         if (!loaded) {
             faults_.add(placed(loaded.error(), asset->place));
             return nullptr;
         }
-        return *loaded;
+        return geometries_[key] = *loaded;
     }
 
     void readObject(const json::Value& value) {
@@ -315,6 +327,7 @@ private:
     const json::Document& document_;
     Library& library_;
     fs::path directory_;
+    std::map<std::string, std::shared_ptr<const Geometry>> geometries_;
     SceneFile result_;
     Diagnostics faults_;
 };

@@ -43,8 +43,9 @@ public:
         double number = 0.0;
         const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), number);
         if (result.ec != std::errc() || !std::isfinite(number))
-            return refuse(progress_.lastStart, "J006", "the number " + std::string(digits.substr(0, 40)) +
-                          " does not fit in double precision", "write a number between 1e-300 and 1e300");
+            return refuse(progress_.lastStart, "J006",
+                          "the number " + std::string(digits.substr(0, 40)) + " does not fit in double precision",
+                          "write a number between 1e-300 and 1e300");
         progress_.lastIsNumber = true;
         Value* target = scalar(Kind::Number);
         if (!target) return false;
@@ -66,8 +67,9 @@ public:
         std::string key(characters, length);
         const auto [first, isNew] = frames_.back().keys.emplace(key, place);
         if (!isNew)
-            return refuse(progress_.lastStart, "J004", "key \"" + key + "\" given twice in one object",
-                          "first at " + std::to_string(first->second.line) + ":" + std::to_string(first->second.column));
+            return refuse(
+                progress_.lastStart, "J004", "key \"" + key + "\" given twice in one object",
+                "first at " + std::to_string(first->second.line) + ":" + std::to_string(first->second.column));
         frames_.back().value->members.push_back({std::move(key), place, {}});
         progress_.after = Progress::After::Key;
         return true;
@@ -108,8 +110,8 @@ private:
 
     bool refuse(std::size_t at, std::string code, std::string text, std::string hint) {
         const Place place = lines_.at(at);
-        refusal_ = Diagnostic{Severity::Error, std::move(code), {}, place.line, place.column, std::move(text),
-                              std::move(hint)};
+        refusal_ = Diagnostic{Severity::Error, std::move(code), {}, place.line, place.column,
+                              std::move(text), std::move(hint)};
         return false;
     }
 
@@ -167,15 +169,22 @@ private:
 std::string_view stringProblem(rapidjson::ParseErrorCode code, std::string_view text, std::size_t offset) {
     if (code == rapidjson::kParseErrorStringEscapeInvalid && offset < text.size() && text[offset] != '\\') {
         const auto byte = static_cast<unsigned char>(text[offset]);
-        if (byte == '\n' || byte == '\r') code = rapidjson::kParseErrorStringMissQuotationMark;
-        else if (byte < 0x20) return "a control character inside it";
+        if (byte == '\n' || byte == '\r')
+            code = rapidjson::kParseErrorStringMissQuotationMark;
+        else if (byte < 0x20)
+            return "a control character inside it";
     }
     switch (code) {
-        case rapidjson::kParseErrorStringMissQuotationMark: return "it has no closing quotation mark on its line";
-        case rapidjson::kParseErrorStringEscapeInvalid: return "unknown escape after a backslash";
-        case rapidjson::kParseErrorStringUnicodeEscapeInvalidHex: return "\\u needs four hexadecimal digits";
-        case rapidjson::kParseErrorStringUnicodeSurrogateInvalid: return "half of a \\u surrogate pair";
-        default: return {};
+        case rapidjson::kParseErrorStringMissQuotationMark:
+            return "it has no closing quotation mark on its line";
+        case rapidjson::kParseErrorStringEscapeInvalid:
+            return "unknown escape after a backslash";
+        case rapidjson::kParseErrorStringUnicodeEscapeInvalidHex:
+            return "\\u needs four hexadecimal digits";
+        case rapidjson::kParseErrorStringUnicodeSurrogateInvalid:
+            return "half of a \\u surrogate pair";
+        default:
+            return {};
     }
 }
 
@@ -208,7 +217,8 @@ Checked<Document> parse(std::string_view text, std::string_view file) {
     const rapidjson::ParseResult result = reader.Parse<flags>(stream, handler);
     if (result) return document;
     Diagnostic why = handler.refusal() ? *handler.refusal()
-                                       : explainSyntax(text, lines, handler.progress(), stringProblem(result.Code(), text, result.Offset()),
+                                       : explainSyntax(text, lines, handler.progress(),
+                                                       stringProblem(result.Code(), text, result.Offset()),
                                                        result.Code() == rapidjson::kParseErrorNumberTooBig);
     why.file = std::string(file);
     return fail(std::move(why));

@@ -6,16 +6,16 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <map>
-#include <regex>
 
 namespace pelage::json {
 namespace {
 
-constexpr int deepestSchema = 512;             // against a $ref that leads to itself
+constexpr int deepestSchema = 512;               // against a $ref that leads to itself
 constexpr std::size_t longestPatternText = 256;  // std::regex recurses once per character
 
-std::string quoted(std::string_view text) { return "\"" + std::string(text) + "\""; }
+std::string quoted(std::string_view text) {
+    return "\"" + std::string(text) + "\"";
+}
 
 std::string shown(double number) {
     char digits[64];
@@ -25,24 +25,36 @@ std::string shown(double number) {
 
 std::string shown(const Value& value) {
     switch (value.kind) {
-        case Kind::Null: return "null";
-        case Kind::Bool: return value.boolean ? "true" : "false";
-        case Kind::Number: return shown(value.number);
-        case Kind::String: return quoted(value.string);
-        case Kind::Array: return "a list";
-        case Kind::Object: return "an object";
+        case Kind::Null:
+            return "null";
+        case Kind::Bool:
+            return value.boolean ? "true" : "false";
+        case Kind::Number:
+            return shown(value.number);
+        case Kind::String:
+            return quoted(value.string);
+        case Kind::Array:
+            return "a list";
+        case Kind::Object:
+            return "an object";
     }
     return {};
 }
 
 std::string_view describe(Kind kind) {
     switch (kind) {
-        case Kind::Null: return "null";
-        case Kind::Bool: return "true or false";
-        case Kind::Number: return "a number";
-        case Kind::String: return "a string";
-        case Kind::Array: return "a list";
-        case Kind::Object: return "an object";
+        case Kind::Null:
+            return "null";
+        case Kind::Bool:
+            return "true or false";
+        case Kind::Number:
+            return "a number";
+        case Kind::String:
+            return "a string";
+        case Kind::Array:
+            return "a list";
+        case Kind::Object:
+            return "an object";
     }
     return {};
 }
@@ -59,12 +71,18 @@ std::string_view describe(std::string_view type) {
 
 bool isOfType(const Value& value, std::string_view type) {
     switch (value.kind) {
-        case Kind::Null: return type == "null";
-        case Kind::Bool: return type == "boolean";
-        case Kind::Number: return type == "number" || (type == "integer" && value.isInteger);
-        case Kind::String: return type == "string";
-        case Kind::Array: return type == "array";
-        case Kind::Object: return type == "object";
+        case Kind::Null:
+            return type == "null";
+        case Kind::Bool:
+            return type == "boolean";
+        case Kind::Number:
+            return type == "number" || (type == "integer" && value.isInteger);
+        case Kind::String:
+            return type == "string";
+        case Kind::Array:
+            return type == "array";
+        case Kind::Object:
+            return type == "object";
     }
     return false;
 }
@@ -72,10 +90,14 @@ bool isOfType(const Value& value, std::string_view type) {
 bool equal(const Value& a, const Value& b) {
     if (a.kind != b.kind) return false;
     switch (a.kind) {
-        case Kind::Null: return true;
-        case Kind::Bool: return a.boolean == b.boolean;
-        case Kind::Number: return a.number == b.number;
-        case Kind::String: return a.string == b.string;
+        case Kind::Null:
+            return true;
+        case Kind::Bool:
+            return a.boolean == b.boolean;
+        case Kind::Number:
+            return a.number == b.number;
+        case Kind::String:
+            return a.string == b.string;
         case Kind::Array:
             return std::equal(a.elements.begin(), a.elements.end(), b.elements.begin(), b.elements.end(), equal);
         case Kind::Object:
@@ -101,7 +123,8 @@ std::string nameHint(std::string_view word, const std::vector<std::string>& know
 
 class Validator {
 public:
-    Validator(const Document& schema, const Document& document) : schema_(schema), document_(document) {}
+    Validator(const Document& schema, const Patterns& patterns, const Document& document)
+        : schema_(schema), patterns_(patterns), document_(document) {}
 
     Diagnostics run() {
         check(schema_.root, document_.root, {});
@@ -111,8 +134,8 @@ public:
 
 private:
     struct Step {
-        std::string_view key = {};       // member of an object
-        std::size_t index = 0;           // or element of an array
+        std::string_view key = {};  // member of an object
+        std::size_t index = 0;      // or element of an array
         const Value* element = nullptr;
     };
     struct Context {
@@ -186,11 +209,20 @@ private:
         if (checkType(schema, value, context)) {
             checkWords(schema, value, context);
             switch (value.kind) {
-                case Kind::Object: checkObject(schema, value, context); break;
-                case Kind::Array: checkArray(schema, value, context); break;
-                case Kind::Number: checkNumber(schema, value, context); break;
-                case Kind::String: checkString(schema, value, context); break;
-                default: break;
+                case Kind::Object:
+                    checkObject(schema, value, context);
+                    break;
+                case Kind::Array:
+                    checkArray(schema, value, context);
+                    break;
+                case Kind::Number:
+                    checkNumber(schema, value, context);
+                    break;
+                case Kind::String:
+                    checkString(schema, value, context);
+                    break;
+                default:
+                    break;
             }
             checkCombinations(schema, value, context);
         }
@@ -256,7 +288,9 @@ private:
         const bool tooFew = low && size < low->number, tooMany = high && size > high->number;
         if (!tooFew && !tooMany) return;
         const double bound = tooFew ? low->number : high->number;
-        const std::string side = low && high && low->number == high->number ? "exactly " : tooFew ? "at least " : "at most ";
+        const std::string side = low && high && low->number == high->number ? "exactly "
+                                 : tooFew                                   ? "at least "
+                                                                            : "at most ";
         report(value.place, "J016", context,
                path() + " needs " + side + shown(bound) + " " + std::string(what) + ", found " + std::to_string(count));
     }
@@ -264,7 +298,7 @@ private:
     void checkObject(const Value& schema, const Value& value, const Context& context) {
         if (const Value* required = schema.find("required")) {
             for (const Value& key : required->elements) {
-                if (!value.find(key.string))
+                if (!value.find(key.string) && !isMisspelt(schema, value, key.string))
                     report(value.place, "J011", context, path() + " has no " + quoted(key.string), "add it");
             }
         }
@@ -294,6 +328,18 @@ private:
                 checkIn({member.key}, *additional, member.value, context);
             }
         }
+    }
+
+    // A misspelt required key is one mistake: it is reported as unknown, with the right spelling as the hint.
+    static bool isMisspelt(const Value& schema, const Value& value, std::string_view key) {
+        const Value* properties = schema.find("properties");
+        const Value* additional = schema.find("additionalProperties");
+        if (!properties || !additional || !additional->isBool() || additional->boolean) return false;
+        std::vector<std::string> keys;
+        for (const Member& property : properties->members) keys.push_back(property.key);
+        return std::any_of(value.members.begin(), value.members.end(), [&](const Member& member) {
+            return !properties->find(member.key) && nearestName(member.key, keys) == key;
+        });
     }
 
     void checkIn(Step step, const Value& schema, const Value& value, const Context& context) {
@@ -332,10 +378,14 @@ private:
                 report(value.place, "J014", context,
                        path() + " is " + shown(value) + ", must be " + std::string(words) + " " + shown(*bound));
         };
-        breaks("minimum", [&](double bound) { return number < bound; }, "at least");
-        breaks("maximum", [&](double bound) { return number > bound; }, "at most");
-        breaks("exclusiveMinimum", [&](double bound) { return number <= bound; }, "more than");
-        breaks("multipleOf", [&](double bound) { return bound > 0 && std::fmod(number, bound) != 0; }, "a multiple of");
+        breaks(
+            "minimum", [&](double bound) { return number < bound; }, "at least");
+        breaks(
+            "maximum", [&](double bound) { return number > bound; }, "at most");
+        breaks(
+            "exclusiveMinimum", [&](double bound) { return number <= bound; }, "more than");
+        breaks(
+            "multipleOf", [&](double bound) { return bound > 0 && std::fmod(number, bound) != 0; }, "a multiple of");
     }
 
     void checkString(const Value& schema, const Value& value, const Context& context) {
@@ -346,14 +396,12 @@ private:
                "must match " + pattern->string);
     }
 
-    bool matches(const std::string& pattern, const std::string& text) {
-        if (text.size() > longestPatternText) return false;
+    bool matches(const std::string& pattern, const std::string& text) const {
+        const auto compiled = patterns_.find(pattern);
+        if (text.size() > longestPatternText || compiled == patterns_.end()) return false;
         try {
-            auto found = patterns_.find(pattern);
-            if (found == patterns_.end())
-                found = patterns_.emplace(pattern, std::regex(pattern, std::regex::ECMAScript)).first;
-            return std::regex_search(text, found->second);
-        } catch (const std::regex_error&) {
+            return std::regex_search(text, compiled->second);
+        } catch (const std::regex_error&) {  // too complex for this text
             return false;
         }
     }
@@ -363,7 +411,8 @@ private:
             for (const Value& part : all->elements) check(part, value, context);
         }
         if (const Value* condition = schema.find("if")) {
-            if (const Value* branch = schema.find(fits(*condition, value) ? "then" : "else")) check(*branch, value, context);
+            if (const Value* branch = schema.find(fits(*condition, value) ? "then" : "else"))
+                check(*branch, value, context);
         }
         if (const Value* forbidden = schema.find("not"); forbidden && fits(*forbidden, value))
             report(value.place, "J019", context, path() + " is not allowed here", "remove it");
@@ -404,8 +453,8 @@ private:
         return type && type->isString() ? std::string(describe(type->string)) : "of another form";
     }
 
-    // The branch a person most likely meant: the right kind, and for objects the same constant members or, failing that,
-    // the most keys in common.
+    // The branch a person most likely meant: the right kind, and for objects the same constant members or, failing
+    // that, the most keys in common.
     const Value* intended(const Value& branches, const Value& value) const {
         const Value* best = nullptr;
         int bestScore = 0;
@@ -433,9 +482,9 @@ private:
     }
 
     const Document& schema_;
+    const Patterns& patterns_;
     const Document& document_;
     std::vector<Step> steps_ = {};
-    std::map<std::string, std::regex> patterns_ = {};
     Diagnostics out_ = {};
     int depth_ = 0;
     bool muted_ = false, failed_ = false;
@@ -443,19 +492,26 @@ private:
 
 }  // namespace
 
+struct Schema::Compiled {
+    Document document = {};
+    Patterns patterns = {};
+};
+
 Checked<Schema> Schema::parse(std::string_view text, std::string_view file) {
     Checked<Document> document = json::parse(text, file);
     if (!document) return tl::unexpected<Diagnostics>(std::move(document.error()));
-    if (Diagnostics faults = checkSchema(*document); !faults.empty())
+    auto compiled = std::make_shared<Compiled>();
+    compiled->document = std::move(*document);
+    if (Diagnostics faults = checkSchema(compiled->document, compiled->patterns); !faults.empty())
         return tl::unexpected<Diagnostics>(std::move(faults));
     Schema schema;
-    schema.document_ = std::make_shared<const Document>(std::move(*document));
+    schema.compiled_ = std::move(compiled);
     return schema;
 }
 
 Diagnostics Schema::validate(const Document& document) const {
-    if (!document_) return {};
-    return Validator(*document_, document).run();
+    if (!compiled_) return {};
+    return Validator(compiled_->document, compiled_->patterns, document).run();
 }
 
 }  // namespace pelage::json

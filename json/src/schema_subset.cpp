@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "schema_subset.hpp"
 
-#include <regex>
-
 namespace pelage::json {
 namespace {
 
@@ -14,24 +12,49 @@ struct Keyword {
 };
 
 constexpr Keyword keywords[] = {
-    {"$schema", Shape::Text}, {"$id", Shape::Text}, {"$comment", Shape::Text}, {"title", Shape::Text},
-    {"description", Shape::Text}, {"default", Shape::Anything}, {"examples", Shape::Anything},
-    {"$ref", Shape::Text}, {"$defs", Shape::SchemaMap},
-    {"type", Shape::Types}, {"const", Shape::Anything}, {"enum", Shape::Values},
-    {"properties", Shape::SchemaMap}, {"required", Shape::Words}, {"additionalProperties", Shape::Schema},
-    {"propertyNames", Shape::Schema}, {"minProperties", Shape::Number}, {"maxProperties", Shape::Number},
-    {"pattern", Shape::Text}, {"minLength", Shape::Number}, {"maxLength", Shape::Number},
-    {"items", Shape::Schema}, {"prefixItems", Shape::Schemas}, {"minItems", Shape::Number},
-    {"maxItems", Shape::Number}, {"uniqueItems", Shape::Boolean},
-    {"minimum", Shape::Number}, {"maximum", Shape::Number}, {"exclusiveMinimum", Shape::Number},
+    {"$schema", Shape::Text},
+    {"$id", Shape::Text},
+    {"$comment", Shape::Text},
+    {"title", Shape::Text},
+    {"description", Shape::Text},
+    {"default", Shape::Anything},
+    {"examples", Shape::Anything},
+    {"$ref", Shape::Text},
+    {"$defs", Shape::SchemaMap},
+    {"type", Shape::Types},
+    {"const", Shape::Anything},
+    {"enum", Shape::Values},
+    {"properties", Shape::SchemaMap},
+    {"required", Shape::Words},
+    {"additionalProperties", Shape::Schema},
+    {"propertyNames", Shape::Schema},
+    {"minProperties", Shape::Number},
+    {"maxProperties", Shape::Number},
+    {"pattern", Shape::Text},
+    {"minLength", Shape::Number},
+    {"maxLength", Shape::Number},
+    {"items", Shape::Schema},
+    {"prefixItems", Shape::Schemas},
+    {"minItems", Shape::Number},
+    {"maxItems", Shape::Number},
+    {"uniqueItems", Shape::Boolean},
+    {"minimum", Shape::Number},
+    {"maximum", Shape::Number},
+    {"exclusiveMinimum", Shape::Number},
     {"multipleOf", Shape::Number},
-    {"oneOf", Shape::Schemas}, {"anyOf", Shape::Schemas}, {"allOf", Shape::Schemas}, {"not", Shape::Schema},
-    {"if", Shape::Schema}, {"then", Shape::Schema}, {"else", Shape::Schema}, {"x-error", Shape::Error},
+    {"oneOf", Shape::Schemas},
+    {"anyOf", Shape::Schemas},
+    {"allOf", Shape::Schemas},
+    {"not", Shape::Schema},
+    {"if", Shape::Schema},
+    {"then", Shape::Schema},
+    {"else", Shape::Schema},
+    {"x-error", Shape::Error},
 };
 
 class Checker {
 public:
-    explicit Checker(const Document& document) : document_(document) {}
+    Checker(const Document& document, Patterns& patterns) : document_(document), patterns_(patterns) {}
 
     void schema(const Value& value) {
         if (value.isBool()) return;
@@ -72,26 +95,37 @@ private:
 
     void keyword(const Keyword& keyword, const Value& value) {
         switch (keyword.shape) {
-            case Shape::Anything: break;
+            case Shape::Anything:
+                break;
             case Shape::Text:
                 expect(value.isString(), keyword, value, "a string");
                 if (value.isString() && keyword.name == "$ref" && !resolveReference(document_.root, value.string))
                     fault(value.place, "nothing at \"" + value.string + "\"");
                 if (value.isString() && keyword.name == "pattern") pattern(value);
                 break;
-            case Shape::Boolean: expect(value.isBool(), keyword, value, "true or false"); break;
-            case Shape::Number: expect(value.isNumber(), keyword, value, "a number"); break;
+            case Shape::Boolean:
+                expect(value.isBool(), keyword, value, "true or false");
+                break;
+            case Shape::Number:
+                expect(value.isNumber(), keyword, value, "a number");
+                break;
             case Shape::Types:
                 expect(value.isString() || isWords(value), keyword, value, "a word or a list of words");
                 typeWord(value);
                 for (const Value& element : value.elements) typeWord(element);
                 break;
-            case Shape::Words: expect(isWords(value), keyword, value, "a list of words"); break;
+            case Shape::Words:
+                expect(isWords(value), keyword, value, "a list of words");
+                break;
             case Shape::Error:
                 expect(isWords(value) && value.elements.size() == 2, keyword, value, "[code, text]");
                 break;
-            case Shape::Values: expect(value.isArray(), keyword, value, "a list"); break;
-            case Shape::Schema: schema(value); break;
+            case Shape::Values:
+                expect(value.isArray(), keyword, value, "a list");
+                break;
+            case Shape::Schema:
+                schema(value);
+                break;
             case Shape::Schemas:
                 expect(value.isArray(), keyword, value, "a list of schemas");
                 for (const Value& element : value.elements) schema(element);
@@ -113,13 +147,16 @@ private:
 
     void pattern(const Value& value) {
         try {
-            const std::regex compiled(value.string, std::regex::ECMAScript);
+            if (patterns_.count(value.string) == 0)
+                patterns_.emplace(value.string,
+                                  std::regex(value.string, std::regex::ECMAScript | std::regex::optimize));
         } catch (const std::regex_error&) {
             fault(value.place, "the pattern is not a regular expression");
         }
     }
 
     const Document& document_;
+    Patterns& patterns_;
     Diagnostics out_ = {};
 };
 
@@ -133,8 +170,8 @@ const Value* resolveReference(const Value& root, std::string_view reference) {
     return definitions ? definitions->find(reference.substr(prefix.size())) : nullptr;
 }
 
-Diagnostics checkSchema(const Document& schema) {
-    Checker checker(schema);
+Diagnostics checkSchema(const Document& schema, Patterns& patterns) {
+    Checker checker(schema, patterns);
     checker.schema(schema.root);
     return checker.take();
 }

@@ -7,13 +7,17 @@
 namespace pelage::json {
 namespace {
 
-bool isBlank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
+bool isBlank(char c) {
+    return c == ' ' || c == '\t' || c == '\n' || c == '\r';
+}
 bool isWordCharacter(char c) {
     return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '.' ||
            c == '+' || c == '-';
 }
 
-std::string text(Place place) { return std::to_string(place.line) + ':' + std::to_string(place.column); }
+std::string text(Place place) {
+    return std::to_string(place.line) + ':' + std::to_string(place.column);
+}
 
 std::string_view wordAt(std::string_view all, std::size_t at) {
     std::size_t end = at;
@@ -69,9 +73,16 @@ std::string numberHint(std::string_view word) {
 
 std::string valueHint(std::string_view word, char found) {
     if (found == '\'') return "use \" instead of '";
-    constexpr std::array<std::pair<std::string_view, std::string_view>, 10> spellings{
-        {{"True", "true"}, {"TRUE", "true"}, {"yes", "true"}, {"on", "true"}, {"False", "false"}, {"FALSE", "false"},
-         {"no", "false"}, {"off", "false"}, {"None", "null"}, {"NULL", "null"}}};
+    constexpr std::array<std::pair<std::string_view, std::string_view>, 10> spellings{{{"True", "true"},
+                                                                                       {"TRUE", "true"},
+                                                                                       {"yes", "true"},
+                                                                                       {"on", "true"},
+                                                                                       {"False", "false"},
+                                                                                       {"FALSE", "false"},
+                                                                                       {"no", "false"},
+                                                                                       {"off", "false"},
+                                                                                       {"None", "null"},
+                                                                                       {"NULL", "null"}}};
     for (const auto& [wrong, right] : spellings) {
         if (word == wrong) return "write " + std::string(right);
     }
@@ -123,7 +134,10 @@ std::size_t firstBadByte(std::string_view text) {
             ++i;
             continue;
         }
-        const std::size_t extra = c >= 0xC2 && c <= 0xDF ? 1 : c >= 0xE0 && c <= 0xEF ? 2 : c >= 0xF0 && c <= 0xF4 ? 3 : 0;
+        const std::size_t extra = c >= 0xC2 && c <= 0xDF   ? 1
+                                  : c >= 0xE0 && c <= 0xEF ? 2
+                                  : c >= 0xF0 && c <= 0xF4 ? 3
+                                                           : 0;
         if (extra == 0) return i;
         for (std::size_t k = 1; k <= extra; ++k) {
             if ((byte(i + k) & 0xC0U) != 0x80U) return i;
@@ -180,7 +194,9 @@ Diagnostic explainSyntax(std::string_view all, const Lines& lines, const Progres
             expected = "a value";
             wantsValue = true;
             break;
-        case After::Document: expected = "the end of the text"; break;
+        case After::Document:
+            expected = "the end of the text";
+            break;
         case After::Open:
             expected = inObject ? "a key in double quotes or '}'" : "a value or ']'";
             wantsValue = !inObject;

@@ -34,11 +34,18 @@ public:
 
     void drive(const Target& target, const Value& value) {
         switch (target.kind) {
-            case Target::Kind::Input: driveInput(target.index, value); break;
-            case Target::Kind::Option: driveOption(target.index, value); break;
-            case Target::Kind::ShaderEnabled: change(out_.shaders[target.index].enabled, value.integer != 0); break;
+            case Target::Kind::Input:
+                driveInput(target.index, value);
+                break;
+            case Target::Kind::Option:
+                driveOption(target.index, value);
+                break;
+            case Target::Kind::ShaderEnabled:
+                change(out_.shaders[target.index].enabled, value.integer != 0);
+                break;
             case Target::Kind::ShaderState:
-            case Target::Kind::None: break;
+            case Target::Kind::None:
+                break;
         }
     }
 
@@ -107,7 +114,8 @@ const CompiledMaterial& Material::compile() {
     }
     std::vector<Value> in;
     for (const FunctorUse& use : linked.functors) {
-        if (!first_ && std::none_of(use.in.begin(), use.in.end(), [&](std::size_t property) { return dirty_[property]; }))
+        if (!first_ &&
+            std::none_of(use.in.begin(), use.in.end(), [&](std::size_t property) { return dirty_[property]; }))
             continue;
         in.clear();
         for (const std::size_t property : use.in) in.push_back(values_[property]);

@@ -13,10 +13,14 @@ using Operation = Condition::Operation;
 
 enum class Type { Bool, Number, Word };
 
-std::string_view name(Type type) { return type == Type::Bool ? "true or false" : type == Type::Number ? "a number" : "a word"; }
+std::string_view name(Type type) {
+    return type == Type::Bool ? "true or false" : type == Type::Number ? "a number" : "a word";
+}
 
 // Properties are single precision: 0.1 in a condition must equal 0.1 in a file.
-double rounded(double number) { return static_cast<double>(static_cast<float>(number)); }
+double rounded(double number) {
+    return static_cast<double>(static_cast<float>(number));
+}
 
 struct Token {
     enum class Kind { End, Name, Number, Word, Symbol, Bad } kind = Kind::End;
@@ -52,7 +56,8 @@ public:
         } else {
             token_.kind = Token::Kind::Bad;
             ++at_;
-            for (const std::string_view symbol : {"||", "&&", "==", "!=", "<=", ">=", "<", ">", "!", "(", ")", "[", "]", ","}) {
+            for (const std::string_view symbol :
+                 {"||", "&&", "==", "!=", "<=", ">=", "<", ">", "!", "(", ")", "[", "]", ","}) {
                 if (text_.substr(start, symbol.size()) != symbol) continue;
                 token_.kind = Token::Kind::Symbol;
                 at_ = start + symbol.size();
@@ -87,7 +92,8 @@ public:
 
     std::optional<Diagnostic> run() {
         const std::optional<Term> whole = either();
-        if (whole && token().kind != Token::Kind::End) fail("E001", token().at, "expected an operator, found " + found());
+        if (whole && token().kind != Token::Kind::End)
+            fail("E001", token().at, "expected an operator, found " + found());
         if (whole && !fault_) needs(*whole, Type::Bool);
         return fault_;
     }
@@ -143,8 +149,8 @@ private:
         if (!left) return {};
         if (token().kind == Token::Kind::Name && token().text == "in") return membership(*left);
         constexpr std::pair<std::string_view, Operation> operations[] = {
-            {"==", Operation::Equal}, {"!=", Operation::NotEqual}, {"<=", Operation::LessEqual},
-            {">=", Operation::GreaterEqual}, {"<", Operation::Less}, {">", Operation::Greater}};
+            {"==", Operation::Equal},        {"!=", Operation::NotEqual}, {"<=", Operation::LessEqual},
+            {">=", Operation::GreaterEqual}, {"<", Operation::Less},      {">", Operation::Greater}};
         for (const auto& [symbol, operation] : operations) {
             if (!take(symbol)) continue;
             const std::optional<Term> right = unary();
@@ -156,7 +162,8 @@ private:
 
     std::optional<Term> compare(const Term& left, Operation operation, const Term& right) {
         if (left.type != right.type)
-            return fail("E004", right.at, "compares " + std::string(name(left.type)) + " with " + std::string(name(right.type)));
+            return fail("E004", right.at,
+                        "compares " + std::string(name(left.type)) + " with " + std::string(name(right.type)));
         if (left.type != Type::Number && operation != Operation::Equal && operation != Operation::NotEqual)
             return fail("E004", left.at, "only numbers have an order", "use == or !=");
         if (left.type == Type::Word) {
@@ -187,7 +194,8 @@ private:
     std::optional<Term> membership(const Term& left) {
         lexer_.advance();
         if (left.type == Type::Bool) return fail("E004", left.at, "'in' needs a property with words or numbers");
-        if (left.type == Type::Word && !left.property) return fail("E004", left.at, "'in' needs a property on its left");
+        if (left.type == Type::Word && !left.property)
+            return fail("E004", left.at, "'in' needs a property on its left");
         if (!take("[")) return fail("E001", token().at, "expected '[' after in, found " + found());
         Condition::Node node;
         node.operation = Operation::In;
@@ -254,11 +262,13 @@ private:
             if (property == properties_.end()) {
                 std::vector<std::string> known;
                 for (const Property& candidate : properties_) known.push_back(candidate.id);
-                return fail("E002", here.at, "unknown property '" + std::string(here.text) + "'", nameHint(here.text, known));
+                return fail("E002", here.at, "unknown property '" + std::string(here.text) + "'",
+                            nameHint(here.text, known));
             }
             const bool isNumber = componentCount(property->type) == 1;
             if (!isNumber && property->type != ValueType::Bool && property->type != ValueType::Enum)
-                return fail("E004", here.at, "'" + property->id + "' is " + std::string(materials::name(property->type)),
+                return fail("E004", here.at,
+                            "'" + property->id + "' is " + std::string(materials::name(property->type)),
                             "only bool, enum and single numbers can be compared");
             node.operation = Operation::Read;
             node.property = static_cast<std::size_t>(property - properties_.begin());
@@ -306,18 +316,30 @@ double Condition::evaluate(std::size_t index, const std::vector<Value>& values) 
     const auto right = [&] { return evaluate(node.right, values); };
     switch (node.operation) {
         case Operation::Literal:
-        case Operation::Word: return node.number;
-        case Operation::Read: return numberOf(values[node.property]);
-        case Operation::Not: return left() == 0 ? 1 : 0;
-        case Operation::And: return left() != 0 && right() != 0 ? 1 : 0;
-        case Operation::Or: return left() != 0 || right() != 0 ? 1 : 0;
-        case Operation::Equal: return left() == right() ? 1 : 0;
-        case Operation::NotEqual: return left() != right() ? 1 : 0;
-        case Operation::Less: return left() < right() ? 1 : 0;
-        case Operation::LessEqual: return left() <= right() ? 1 : 0;
-        case Operation::Greater: return left() > right() ? 1 : 0;
-        case Operation::GreaterEqual: return left() >= right() ? 1 : 0;
-        case Operation::In: return std::find(node.set.begin(), node.set.end(), left()) != node.set.end() ? 1 : 0;
+        case Operation::Word:
+            return node.number;
+        case Operation::Read:
+            return numberOf(values[node.property]);
+        case Operation::Not:
+            return left() == 0 ? 1 : 0;
+        case Operation::And:
+            return left() != 0 && right() != 0 ? 1 : 0;
+        case Operation::Or:
+            return left() != 0 || right() != 0 ? 1 : 0;
+        case Operation::Equal:
+            return left() == right() ? 1 : 0;
+        case Operation::NotEqual:
+            return left() != right() ? 1 : 0;
+        case Operation::Less:
+            return left() < right() ? 1 : 0;
+        case Operation::LessEqual:
+            return left() <= right() ? 1 : 0;
+        case Operation::Greater:
+            return left() > right() ? 1 : 0;
+        case Operation::GreaterEqual:
+            return left() >= right() ? 1 : 0;
+        case Operation::In:
+            return std::find(node.set.begin(), node.set.end(), left()) != node.set.end() ? 1 : 0;
     }
     return 0;
 }

@@ -17,8 +17,21 @@ public:
     /// Indices of the properties it reads.
     std::vector<std::size_t> reads() const;
 
-    enum class Operation : std::uint8_t { Literal, Word, Read, Not, And, Or, Equal, NotEqual, Less, LessEqual, Greater,
-                                          GreaterEqual, In };
+    enum class Operation : std::uint8_t {
+        Literal,
+        Word,
+        Read,
+        Not,
+        And,
+        Or,
+        Equal,
+        NotEqual,
+        Less,
+        LessEqual,
+        Greater,
+        GreaterEqual,
+        In
+    };
     struct Node {
         Operation operation = Operation::Literal;
         double number = 0;             // Literal; bool as 0 or 1

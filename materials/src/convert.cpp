@@ -19,34 +19,47 @@ std::string quoted(std::string_view text) {
     return out;
 }
 
-bool isWhole(ValueType type) { return type == ValueType::Int || type == ValueType::Uint; }
+bool isWhole(ValueType type) {
+    return type == ValueType::Int || type == ValueType::Uint;
+}
 
 std::string_view wanted(const Property& property) {
     switch (property.type) {
-        case ValueType::Bool: return "true or false";
+        case ValueType::Bool:
+            return "true or false";
         case ValueType::Int:
-        case ValueType::Uint: return "a whole number";
-        case ValueType::Float: return "a number";
-        case ValueType::Float2: return "two numbers";
-        case ValueType::Float3: return "three numbers";
-        case ValueType::Color: return "a colour of three numbers";
-        case ValueType::Float4: return "four numbers";
-        case ValueType::Enum: return "one of its words";
+        case ValueType::Uint:
+            return "a whole number";
+        case ValueType::Float:
+            return "a number";
+        case ValueType::Float2:
+            return "two numbers";
+        case ValueType::Float3:
+            return "three numbers";
+        case ValueType::Color:
+            return "a colour of three numbers";
+        case ValueType::Float4:
+            return "four numbers";
+        case ValueType::Enum:
+            return "one of its words";
         case ValueType::Texture2D:
-        case ValueType::TextureCube: return "a texture path";
+        case ValueType::TextureCube:
+            return "a texture path";
     }
     return "something else";
 }
 
 Conversion refuseType(const Property& property, std::string_view found, std::string hint = {}) {
-    return refuse("V003", quoted(property.id) + " must be " + std::string(wanted(property)) + ", found " + std::string(found),
+    return refuse("V003",
+                  quoted(property.id) + " must be " + std::string(wanted(property)) + ", found " + std::string(found),
                   std::move(hint));
 }
 
 Conversion fromWord(const Property& property, std::string_view word) {
     const auto found = std::find(property.words.begin(), property.words.end(), word);
     if (found == property.words.end())
-        return refuse("V004", quoted(word) + " is not a value of " + quoted(property.id), nameHint(word, property.words));
+        return refuse("V004", quoted(word) + " is not a value of " + quoted(property.id),
+                      nameHint(word, property.words));
     return {Value{ValueType::Enum, {}, found - property.words.begin(), *found}, {}};
 }
 
@@ -61,29 +74,44 @@ Conversion fromTexture(const Property& property, std::string_view path) {
     return {Value{property.type, {}, 0, std::string(path)}, {}};
 }
 
-// `numbers` are in the program's space already (colours linear).
-Conversion fromNumbers(const Property& property, const std::vector<double>& numbers) {
+double rounded(double number) {
+    constexpr double largest = std::numeric_limits<float>::max();
+    // Beyond float the conversion is undefined; such numbers are clamped by the range next.
+    return std::abs(number) <= largest ? static_cast<double>(static_cast<float>(number)) : number;
+}
+
+// `numbers` are in the program's space already (colours linear); `written` is what the person wrote.
+Conversion fromNumbers(const Property& property, const std::vector<double>& numbers,
+                       const std::vector<double>& written) {
     const Range range = rangeOf(property);
+    // A range is told in the space the person wrote in, without the noise of the round trip.
+    const bool isEncoded = property.type == ValueType::Color && property.srgb && &numbers != &written;
+    const auto bound = [&](double linear) {
+        if (!isEncoded || std::abs(linear) > 1e3) return shown(linear);
+        return shown(std::round(static_cast<double>(linearToSrgb(static_cast<float>(linear))) * 1e5) / 1e5);
+    };
     Conversion out;
     Value value;
     value.type = property.type;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
-        const double number = numbers[i];
-        if (!std::isfinite(number)) return refuse("V013", "a number that is not finite for " + quoted(property.id));
+        // Compared as it will be stored, so that 0.1 is inside 0.1..1.
+        const double number = isWhole(property.type) ? numbers[i] : rounded(numbers[i]);
+        if (!std::isfinite(numbers[i])) return refuse("V013", "a number that is not finite for " + quoted(property.id));
         const double clamped = std::clamp(number, range.min, range.max);
         if (clamped != number && !out.problem) {
-            out.problem = Diagnostic{Severity::Warning, "V005", {}, 0, 0,
-                                     shown(number) + " is outside " + shown(range.min) + ".." + shown(range.max) + " of " +
-                                         quoted(property.id),
-                                     "clamped to " + shown(clamped)};
+            out.problem = Diagnostic{Severity::Warning,
+                                     "V005",
+                                     {},
+                                     0,
+                                     0,
+                                     shown(written[i]) + " is outside " + bound(range.min) + ".." + bound(range.max) +
+                                         " of " + quoted(property.id),
+                                     "clamped to " + bound(clamped)};
         }
         if (isWhole(property.type)) {
             value.integer = static_cast<std::int64_t>(clamped);
         } else {
-            // Rounding to float must not leave the range again.
-            auto single = static_cast<float>(clamped);
-            if (static_cast<double>(single) > range.max) single = std::nextafter(single, -INFINITY);
-            if (static_cast<double>(single) < range.min) single = std::nextafter(single, INFINITY);
+            const auto single = static_cast<float>(clamped);
             value.number[i] = single == 0.0F ? 0.0F : single;  // one zero only
         }
     }
@@ -92,14 +120,15 @@ Conversion fromNumbers(const Property& property, const std::vector<double>& numb
     return out;
 }
 
-Conversion fromFileNumbers(const Property& property, std::vector<double> numbers) {
+Conversion fromFileNumbers(const Property& property, const std::vector<double>& written) {
+    std::vector<double> numbers = written;
     if (property.type == ValueType::Color && property.srgb) {
         for (double& number : numbers) {
             // Beyond float the curve would overflow; the range clamps such numbers anyway.
             if (std::isfinite(number)) number = srgbToLinear(static_cast<float>(std::clamp(number, -1e3, 1e3)));
         }
     }
-    return fromNumbers(property, numbers);
+    return fromNumbers(property, numbers, written);
 }
 
 std::string_view trim(std::string_view text) {
@@ -135,28 +164,37 @@ std::size_t componentCount(ValueType type) {
     switch (type) {
         case ValueType::Int:
         case ValueType::Uint:
-        case ValueType::Float: return 1;
-        case ValueType::Float2: return 2;
+        case ValueType::Float:
+            return 1;
+        case ValueType::Float2:
+            return 2;
         case ValueType::Float3:
-        case ValueType::Color: return 3;
-        case ValueType::Float4: return 4;
-        default: return 0;
+        case ValueType::Color:
+            return 3;
+        case ValueType::Float4:
+            return 4;
+        default:
+            return 0;
     }
 }
 
-bool isTexture(ValueType type) { return type == ValueType::Texture2D || type == ValueType::TextureCube; }
+bool isTexture(ValueType type) {
+    return type == ValueType::Texture2D || type == ValueType::TextureCube;
+}
 
 std::string shown(double number) {
     char digits[64];
     const auto single = static_cast<float>(number);
-    const bool isSingle = std::isfinite(single) && std::abs(static_cast<double>(single) - number) <= 1e-7 * std::abs(number);
+    const bool isSingle =
+        std::isfinite(single) && std::abs(static_cast<double>(single) - number) <= 1e-7 * std::abs(number);
     const auto result = isSingle ? std::to_chars(digits, digits + sizeof digits, single)
                                  : std::to_chars(digits, digits + sizeof digits, number);
     return {digits, result.ptr};
 }
 
 std::string nameHint(std::string_view word, const std::vector<std::string>& known) {
-    if (const std::string_view near = nearestName(word, known); !near.empty()) return "did you mean " + quoted(near) + "?";
+    if (const std::string_view near = nearestName(word, known); !near.empty())
+        return "did you mean " + quoted(near) + "?";
     if (known.empty() || known.size() > 16) return {};
     std::vector<std::string> sorted = known;
     std::sort(sorted.begin(), sorted.end());
@@ -173,6 +211,10 @@ Range rangeOf(const Property& property) {
     if (property.type == ValueType::Color) range.min = 0;
     if (property.min) range.min = std::max(range.min, *property.min);
     if (property.max) range.max = std::min(range.max, *property.max);
+    if (property.type != ValueType::Int && property.type != ValueType::Uint) {
+        range.min = rounded(range.min);
+        range.max = rounded(range.max);
+    }
     if (range.max < range.min) range.max = range.min;  // such a type is refused (M007)
     return range;
 }
@@ -180,12 +222,18 @@ Range rangeOf(const Property& property) {
 Conversion convert(const Property& property, const json::Value& value) {
     const auto found = [&]() -> std::string_view {
         switch (value.kind) {
-            case json::Kind::Null: return "null";
-            case json::Kind::Bool: return "true or false";
-            case json::Kind::Number: return "a number";
-            case json::Kind::String: return "a string";
-            case json::Kind::Array: return "a list";
-            case json::Kind::Object: return "an object";
+            case json::Kind::Null:
+                return "null";
+            case json::Kind::Bool:
+                return "true or false";
+            case json::Kind::Number:
+                return "a number";
+            case json::Kind::String:
+                return "a string";
+            case json::Kind::Array:
+                return "a list";
+            case json::Kind::Object:
+                return "an object";
         }
         return "something else";
     };
@@ -209,7 +257,8 @@ Conversion convert(const Property& property, const json::Value& value) {
             if (!value.isNumber()) return refuseType(property, found());
             if (isWhole(property.type) && !value.isInteger) return refuseType(property, shown(value.number));
             return fromFileNumbers(property, {value.number});
-        default: break;
+        default:
+            break;
     }
     std::vector<double> numbers;
     for (const json::Value& element : value.elements) {
@@ -219,7 +268,7 @@ Conversion convert(const Property& property, const json::Value& value) {
     if (!value.isArray()) return refuseType(property, found(), "write [ ] around the numbers");
     if (numbers.size() != componentCount(property.type))
         return refuseType(property, "a list of " + std::to_string(numbers.size()));
-    return fromFileNumbers(property, std::move(numbers));
+    return fromFileNumbers(property, numbers);
 }
 
 Conversion convert(const Property& property, std::string_view given) {
@@ -233,15 +282,18 @@ Conversion convert(const Property& property, std::string_view given) {
                 if (text == no) return {Value::boolean(false), {}};
             }
             return refuseType(property, quoted(text));
-        case ValueType::Enum: return fromWord(property, text);
+        case ValueType::Enum:
+            return fromWord(property, text);
         case ValueType::Texture2D:
-        case ValueType::TextureCube: return fromTexture(property, text);
-        default: break;
+        case ValueType::TextureCube:
+            return fromTexture(property, text);
+        default:
+            break;
     }
     if (property.type == ValueType::Color && !text.empty() && text.front() == '#') {
         const auto color = hexColor(text);
         if (!color) return refuseType(property, quoted(text), "write six hexadecimal digits, such as #805030");
-        return fromNumbers(property, *color);
+        return fromNumbers(property, *color, *color);
     }
     std::vector<double> numbers;
     std::string_view rest = text;
@@ -255,7 +307,7 @@ Conversion convert(const Property& property, std::string_view given) {
         rest.remove_prefix(comma + 1);
     }
     if (numbers.size() != componentCount(property.type)) return refuseType(property, quoted(text));
-    return fromFileNumbers(property, std::move(numbers));
+    return fromFileNumbers(property, numbers);
 }
 
 Conversion convert(const Property& property, const Value& value) {
@@ -264,21 +316,29 @@ Conversion convert(const Property& property, const Value& value) {
     if (value.type != property.type && !(isWhole(property.type) && isWhole(value.type)) && !(isColor && givesColor))
         return refuseType(property, name(value.type));
     switch (property.type) {
-        case ValueType::Bool: return {Value::boolean(value.integer != 0), {}};
+        case ValueType::Bool:
+            return {Value::boolean(value.integer != 0), {}};
         case ValueType::Enum:
             if (!value.text.empty()) return fromWord(property, value.text);
             if (value.integer < 0 || static_cast<std::size_t>(value.integer) >= property.words.size())
-                return refuse("V004", std::to_string(value.integer) + " is not the index of a value of " + quoted(property.id));
+                return refuse("V004",
+                              std::to_string(value.integer) + " is not the index of a value of " + quoted(property.id));
             return fromWord(property, property.words[static_cast<std::size_t>(value.integer)]);
         case ValueType::Texture2D:
-        case ValueType::TextureCube: return fromTexture(property, value.text);
+        case ValueType::TextureCube:
+            return fromTexture(property, value.text);
         case ValueType::Int:
-        case ValueType::Uint: return fromNumbers(property, {static_cast<double>(value.integer)});
-        default: break;
+        case ValueType::Uint: {
+            const std::vector<double> whole{static_cast<double>(value.integer)};
+            return fromNumbers(property, whole, whole);
+        }
+        default:
+            break;
     }
     std::vector<double> numbers;
-    for (std::size_t i = 0; i < componentCount(property.type); ++i) numbers.push_back(static_cast<double>(value.number[i]));
-    return fromNumbers(property, numbers);
+    for (std::size_t i = 0; i < componentCount(property.type); ++i)
+        numbers.push_back(static_cast<double>(value.number[i]));
+    return fromNumbers(property, numbers, numbers);
 }
 
 }  // namespace pelage::materials

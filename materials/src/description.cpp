@@ -6,8 +6,12 @@ namespace {
 
 using json::Member;
 
-Word word(const json::Value& value) { return {value.string, value.place}; }
-Word key(const Member& member) { return {member.key, member.place}; }
+Word word(const json::Value& value) {
+    return {value.string, value.place};
+}
+Word key(const Member& member) {
+    return {member.key, member.place};
+}
 
 std::string text(const json::Value& object, std::string_view key) {
     const json::Value* value = object.find(key);

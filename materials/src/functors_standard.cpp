@@ -6,12 +6,18 @@
 namespace pelage::materials {
 namespace {
 
-Port port(std::string name, ValueType type) { return {std::move(name), Port::Kind::Value, type, {}, false}; }
+Port port(std::string name, ValueType type) {
+    return {std::move(name), Port::Kind::Value, type, {}, false};
+}
 Port words(std::string name, std::vector<std::string> list) {
     return {std::move(name), Port::Kind::Value, ValueType::Enum, std::move(list), false};
 }
-Port state(std::string name) { return {std::move(name), Port::Kind::State, ValueType::Float, {}, true}; }
-Port enabled(std::string name) { return {std::move(name), Port::Kind::Enabled, ValueType::Bool, {}, true}; }
+Port state(std::string name) {
+    return {std::move(name), Port::Kind::State, ValueType::Float, {}, true};
+}
+Port enabled(std::string name) {
+    return {std::move(name), Port::Kind::Enabled, ValueType::Bool, {}, true};
+}
 
 Value enumValue(const std::vector<std::string>& list, std::int64_t index) {
     return {ValueType::Enum, {}, index, list[static_cast<std::size_t>(index)]};
@@ -19,8 +25,8 @@ Value enumValue(const std::vector<std::string>& list, std::int64_t index) {
 
 }  // namespace
 
-// With a depth pre-pass the forward shader needs no blending: it tests `equal`, so each sample shows exactly the fragment
-// that won. Blending cannot use one; there the depth and forward shaders give way to the blend shader.
+// With a depth pre-pass the forward shader needs no blending: it tests `equal`, so each sample shows exactly the
+// fragment that won. Blending cannot use one; there the depth and forward shaders give way to the blend shader.
 FunctorType blendModeToPipeline() {
     const std::vector<std::string> out{"opaque", "test", "coverage", "hashed", "blend"};
     FunctorType type;
@@ -29,9 +35,16 @@ FunctorType blendModeToPipeline() {
     type.in = {words("mode", {"opaque", "alphaTest", "alphaToCoverage", "hashedAlpha", "alphaBlend"}),
                port("threshold", ValueType::Float), port("hashScale", ValueType::Float),
                port("doubleSided", ValueType::Bool)};
-    type.out = {words("alphaMode", out), port("threshold", ValueType::Float), port("hashScale", ValueType::Float),
-                enabled("depthEnabled"), enabled("forwardEnabled"), enabled("blendEnabled"),
-                state("shadowState"), state("depthState"), state("forwardState"), state("blendState")};
+    type.out = {words("alphaMode", out),
+                port("threshold", ValueType::Float),
+                port("hashScale", ValueType::Float),
+                enabled("depthEnabled"),
+                enabled("forwardEnabled"),
+                enabled("blendEnabled"),
+                state("shadowState"),
+                state("depthState"),
+                state("forwardState"),
+                state("blendState")};
     type.run = [out](std::span<const Value> in, FunctorOutputs& outputs) {
         const std::int64_t mode = std::clamp<std::int64_t>(in[0].integer, 0, 4);
         const bool isCoverage = mode == 2, isBlend = mode == 4;

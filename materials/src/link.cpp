@@ -12,7 +12,9 @@ std::string quoted(std::string_view text) {
     return out;
 }
 
-std::string text(json::Place place) { return std::to_string(place.line) + ":" + std::to_string(place.column); }
+std::string text(json::Place place) {
+    return std::to_string(place.line) + ":" + std::to_string(place.column);
+}
 
 bool sameShape(ValueType from, ValueType to) {
     const auto isColor = [](ValueType type) { return type == ValueType::Color || type == ValueType::Float3; };
@@ -47,6 +49,7 @@ MaterialType::Linked Linker::run() {
     out_.file = description_.file;
     out_.version = description_.version;
     linkProperties();
+    if (diagnostics_.hasErrors()) return std::move(out_);  // names that stand for two things would only cause echoes
     linkDefaults();
     linkInputs();
     linkOptions();
@@ -77,11 +80,16 @@ void Linker::warn(std::string code, json::Place place, std::string text, std::st
 
 std::string Linker::targetName(const Target& target) const {
     switch (target.kind) {
-        case Target::Kind::Input: return "input." + out_.inputs[target.index].name;
-        case Target::Kind::Option: return "option." + out_.options[target.index].name;
-        case Target::Kind::ShaderEnabled: return "shader." + out_.shaders[target.index].name + ".enabled";
-        case Target::Kind::ShaderState: return "shader." + out_.shaders[target.index].name + ".state";
-        case Target::Kind::None: break;
+        case Target::Kind::Input:
+            return "input." + out_.inputs[target.index].name;
+        case Target::Kind::Option:
+            return "option." + out_.options[target.index].name;
+        case Target::Kind::ShaderEnabled:
+            return "shader." + out_.shaders[target.index].name + ".enabled";
+        case Target::Kind::ShaderState:
+            return "shader." + out_.shaders[target.index].name + ".state";
+        case Target::Kind::None:
+            break;
     }
     return "nothing";
 }
@@ -133,8 +141,8 @@ void Linker::linkDefaults() {
                   "default " + converted.problem->text.substr(0, converted.problem->text.find(" is ")) + " of " +
                       quoted(property.id) + " is outside " + shown(range.min) + ".." + shown(range.max));
         } else {
-            error(code == "V004" ? "M008" : "M004", description.defaultValue->place, "default: " + converted.problem->text,
-                  converted.problem->hint);
+            error(code == "V004" ? "M008" : "M004", description.defaultValue->place,
+                  "default: " + converted.problem->text, converted.problem->hint);
         }
     }
 }
@@ -195,8 +203,9 @@ void Linker::linkOptions() {
             error("M007", description.name.place, "the range of option " + quoted(option.name) + " is empty",
                   "needs min <= max");
         } else if (value.number < static_cast<double>(option.min) || value.number > static_cast<double>(option.max)) {
-            error("M005", value.place, "default " + shown(value.number) + " of option " + quoted(option.name) +
-                  " is outside " + std::to_string(option.min) + ".." + std::to_string(option.max));
+            error("M005", value.place,
+                  "default " + shown(value.number) + " of option " + quoted(option.name) + " is outside " +
+                      std::to_string(option.min) + ".." + std::to_string(option.max));
         } else {
             option.defaultValue = static_cast<std::int64_t>(value.number);
         }
@@ -205,7 +214,6 @@ void Linker::linkOptions() {
 }
 
 void Linker::linkShaders() {
-    std::vector<bool> read(out_.options.size(), false);
     for (const ShaderDescription& description : description_.shaders) {
         ShaderUse shader = description.shader;
         std::vector<std::size_t> indices;
@@ -218,17 +226,9 @@ void Linker::linkShaders() {
                       nameHint(word.text, namesOf(out_.options)));
             }
         }
-        for (const std::size_t index : indices) {
-            read[index] = true;
-            shader.options.push_back(out_.options[index].name);
-        }
+        for (const std::size_t index : indices) shader.options.push_back(out_.options[index].name);
         out_.shaders.push_back(std::move(shader));
         out_.shaderOptions.push_back(std::move(indices));
-    }
-    for (std::size_t i = 0; i < read.size(); ++i) {
-        if (!read[i])
-            warn("M032", description_.options[i].name.place, "no shader reads option " + quoted(out_.options[i].name),
-                 "list it in the \"options\" of a shader, or delete it");
     }
 }
 
@@ -246,23 +246,29 @@ bool Linker::drive(const Target& target, const Word& by, std::string what) {
 bool Linker::optionFits(const Property& property, const Option& option, const Word& at) {
     const bool isWhole = property.type == ValueType::Int || property.type == ValueType::Uint;
     if (property.type != option.type && !(isWhole && option.type == ValueType::Int)) {
-        error("M013", at.place, "property " + quoted(property.id) + " is " + std::string(name(property.type)) + ", option " +
-              quoted(option.name) + " is " + std::string(name(option.type)), "change one type, or use a functor");
+        error("M013", at.place,
+              "property " + quoted(property.id) + " is " + std::string(name(property.type)) + ", option " +
+                  quoted(option.name) + " is " + std::string(name(option.type)),
+              "change one type, or use a functor");
         return false;
     }
     if (property.type == ValueType::Enum && property.words != option.words) {
         std::vector<std::string> a = property.words, b = option.words;
         std::sort(a.begin(), a.end());
         std::sort(b.begin(), b.end());
-        error("M014", at.place, "values of " + quoted(property.id) + " and option " + quoted(option.name) +
-              (a == b ? " are in different order" : " differ"), "make the lists equal, or use a functor");
+        error("M014", at.place,
+              "values of " + quoted(property.id) + " and option " + quoted(option.name) +
+                  (a == b ? " are in different order" : " differ"),
+              "make the lists equal, or use a functor");
         return false;
     }
     const Range range = rangeOf(property);
-    if (isWhole && (range.min < static_cast<double>(option.min) || range.max > static_cast<double>(option.max))) {
-        error("M009", at.place, "range " + shown(range.min) + ".." + shown(range.max) + " of " + quoted(property.id) +
-              " exceeds " + std::to_string(option.min) + ".." + std::to_string(option.max) + " of option " +
-              quoted(option.name), "give the property the option's \"min\" and \"max\"");
+    if (isWhole && option.min <= option.max &&
+        (range.min < static_cast<double>(option.min) || range.max > static_cast<double>(option.max))) {
+        error("M009", at.place,
+              "range " + shown(range.min) + ".." + shown(range.max) + " of " + quoted(property.id) + " exceeds " +
+                  std::to_string(option.min) + ".." + std::to_string(option.max) + " of option " + quoted(option.name),
+              "give the property the option's \"min\" and \"max\"");
         return false;
     }
     return true;
@@ -280,26 +286,32 @@ void Linker::linkConnections() {
         if (connect->kind == "input") {
             const auto index = indexOfName(out_.inputs, at.text);
             if (!index) {
-                error("M010", at.place, who + ": unknown input " + quoted(at.text), nameHint(at.text, namesOf(out_.inputs)));
+                error("M010", at.place, who + ": unknown input " + quoted(at.text),
+                      nameHint(at.text, namesOf(out_.inputs)));
                 continue;
             }
             const Input& input = out_.inputs[*index];
             target = {Target::Kind::Input, *index};
             if (!drive(target, at, who)) continue;
             if (!sameShape(property.type, input.type)) {
-                error("M013", at.place, who + " is " + std::string(name(property.type)) + ", input " + quoted(input.name) +
-                      " is " + std::string(name(input.type)), "change one type, or use a functor");
+                error("M013", at.place,
+                      who + " is " + std::string(name(property.type)) + ", input " + quoted(input.name) + " is " +
+                          std::string(name(input.type)),
+                      "change one type, or use a functor");
                 continue;
             }
             if (isTexture(property.type) && property.srgb != input.srgb) {
-                error("M013", at.place, who + " is " + (property.srgb ? "srgb" : "linear") + ", input " + quoted(input.name) +
-                      " is " + (input.srgb ? "srgb" : "linear"), "give both the same \"space\"");
+                error("M013", at.place,
+                      who + " is " + (property.srgb ? "srgb" : "linear") + ", input " + quoted(input.name) + " is " +
+                          (input.srgb ? "srgb" : "linear"),
+                      "give both the same \"space\"");
                 continue;
             }
         } else if (connect->kind == "option") {
             const auto index = indexOfName(out_.options, at.text);
             if (!index) {
-                error("M011", at.place, who + ": unknown option " + quoted(at.text), nameHint(at.text, namesOf(out_.options)));
+                error("M011", at.place, who + ": unknown option " + quoted(at.text),
+                      nameHint(at.text, namesOf(out_.options)));
                 continue;
             }
             target = {Target::Kind::Option, *index};
@@ -307,13 +319,15 @@ void Linker::linkConnections() {
         } else {
             const auto index = indexOfName(out_.shaders, at.text);
             if (!index) {
-                error("M015", at.place, who + ": unknown shader " + quoted(at.text), nameHint(at.text, namesOf(out_.shaders)));
+                error("M015", at.place, who + ": unknown shader " + quoted(at.text),
+                      nameHint(at.text, namesOf(out_.shaders)));
                 continue;
             }
             target = {Target::Kind::ShaderEnabled, *index};
             if (!drive(target, at, who)) continue;
             if (property.type != ValueType::Bool) {
-                error("M013", at.place, who + " is " + std::string(name(property.type)) + ", enabling a shader needs bool");
+                error("M013", at.place,
+                      who + " is " + std::string(name(property.type)) + ", enabling a shader needs bool");
                 continue;
             }
         }
@@ -322,24 +336,34 @@ void Linker::linkConnections() {
 }
 
 void Linker::reportUndriven() {
+    // A functor or a name that could not be linked leaves holes that are not the author's second mistake.
+    if (diagnostics_.hasErrors()) return;
     const auto isDriven = [&](const Target& target) {
-        return std::any_of(drivers_.begin(), drivers_.end(), [&](const Driver& driver) { return driver.target == target; });
+        return std::any_of(drivers_.begin(), drivers_.end(),
+                           [&](const Driver& driver) { return driver.target == target; });
     };
-    // A functor that could not be linked leaves holes that are not the author's second mistake.
-    const bool complete = !diagnostics_.hasErrors();
-    for (std::size_t i = 0; complete && i < out_.inputs.size(); ++i) {
+    for (std::size_t i = 0; i < out_.inputs.size(); ++i) {
         if (!isDriven({Target::Kind::Input, i}))
             error("M018", description_.inputs[i].name.place, "nothing drives input " + quoted(out_.inputs[i].name),
                   "connect a property or a functor output to it, or delete it");
     }
-    for (std::size_t i = 0; complete && i < out_.options.size(); ++i) {
-        if (!isDriven({Target::Kind::Option, i}))
-            warn("M019", description_.options[i].name.place, "nothing drives option " + quoted(out_.options[i].name) +
-                 "; it keeps its default", "connect a property or a functor output to it, or delete it");
+    for (std::size_t i = 0; i < out_.options.size(); ++i) {
+        const json::Place place = description_.options[i].name.place;
+        const bool isRead = std::any_of(out_.shaderOptions.begin(), out_.shaderOptions.end(), [&](const auto& used) {
+            return std::find(used.begin(), used.end(), i) != used.end();
+        });
+        if (!isDriven({Target::Kind::Option, i})) {
+            warn("M019", place, "nothing drives option " + quoted(out_.options[i].name) + "; it keeps its default",
+                 "connect a property or a functor output to it, or delete it");
+        } else if (!isRead) {
+            warn("M032", place, "no shader reads option " + quoted(out_.options[i].name),
+                 "list it in the \"options\" of a shader, or delete it");
+        }
     }
     for (std::size_t i = 0; i < out_.properties.size(); ++i) {
         if (!propertyUsed_[i])
-            warn("M016", description_.properties[i].name.place, "property " + quoted(out_.properties[i].id) + " has no effect",
+            warn("M016", description_.properties[i].name.place,
+                 "property " + quoted(out_.properties[i].id) + " has no effect",
                  "connect it, feed it to a functor, or delete it");
     }
 }

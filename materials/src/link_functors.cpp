@@ -8,7 +8,9 @@
 namespace pelage::materials {
 namespace {
 
-std::vector<std::string> portNames(const std::vector<Port>& ports) { return namesOf(ports); }
+std::vector<std::string> portNames(const std::vector<Port>& ports) {
+    return namesOf(ports);
+}
 
 bool wholeFits(ValueType from, ValueType to) {
     const auto isWhole = [](ValueType type) { return type == ValueType::Int || type == ValueType::Uint; };
@@ -31,8 +33,10 @@ void Linker::linkFunctors() {
 void Linker::linkFunctor(const FunctorDescription& description) {
     const FunctorType* type = registry_.find(description.type.text);
     if (!type || !type->run) {
-        error("M020", description.type.place, "functor " + quoted(description.id.text) + ": type " +
-              quoted(description.type.text) + " is not registered", nameHint(description.type.text, registry_.names()));
+        error(
+            "M020", description.type.place,
+            "functor " + quoted(description.id.text) + ": type " + quoted(description.type.text) + " is not registered",
+            nameHint(description.type.text, registry_.names()));
         // Its inputs and outputs are still meant to be used: no second report for them.
         for (const FunctorDescription::Link& link : description.in) {
             if (const auto index = out_.indexOf(link.target.text)) propertyUsed_[*index] = true;
@@ -53,12 +57,14 @@ bool Linker::linkFunctorInputs(const FunctorDescription& description, FunctorUse
     };
     const std::vector<Port>& ports = use.type.in;
     std::vector<std::optional<std::size_t>> connected(ports.size());
+    bool misnamed = false;  // then a port without connection is the same mistake
     const std::string who = "functor " + quoted(description.id.text);
     for (const FunctorDescription::Link& link : description.in) {
         const auto property = out_.indexOf(link.target.text);
         if (property) propertyUsed_[*property] = true;
         const auto port = indexOfName(ports, link.port.text);
         if (!port) {
+            misnamed = true;
             refuse("M021", link.port.place, who + ": " + use.type.name + " has no input " + quoted(link.port.text),
                    nameHint(link.port.text, portNames(ports)));
             continue;
@@ -71,22 +77,27 @@ bool Linker::linkFunctorInputs(const FunctorDescription& description, FunctorUse
         }
         const Property& source = out_.properties[*property];
         if (!wholeFits(source.type, ports[*port].type)) {
-            refuse("M023", link.target.place, "input " + quoted(link.port.text) + " of " + use.type.name + " needs " +
-                   std::string(name(ports[*port].type)) + ", " + quoted(source.id) + " is " + std::string(name(source.type)),
+            refuse("M023", link.target.place,
+                   "input " + quoted(link.port.text) + " of " + use.type.name + " needs " +
+                       std::string(name(ports[*port].type)) + ", " + quoted(source.id) + " is " +
+                       std::string(name(source.type)),
                    "");
         } else if (source.type == ValueType::Enum && source.words != ports[*port].words) {
             std::string known;
             for (const std::string& word : ports[*port].words) known += (known.empty() ? "" : ", ") + word;
-            refuse("M027", link.target.place, "values of " + quoted(source.id) + " differ from those of input " +
-                   quoted(link.port.text) + " of " + use.type.name, "they must be, in this order: " + known);
+            refuse("M027", link.target.place,
+                   "values of " + quoted(source.id) + " differ from those of input " + quoted(link.port.text) + " of " +
+                       use.type.name,
+                   "they must be, in this order: " + known);
         }
     }
     for (std::size_t i = 0; i < ports.size(); ++i) {
         if (connected[i]) {
             use.in.push_back(*connected[i]);
-        } else {
-            refuse("M024", description.inPlace, who + ": input " + quoted(ports[i].name) + " of " + use.type.name +
-                   " is not connected", "name a property of type " + std::string(name(ports[i].type)));
+        } else if (!misnamed) {
+            refuse("M024", description.inPlace,
+                   who + ": input " + quoted(ports[i].name) + " of " + use.type.name + " is not connected",
+                   "name a property of type " + std::string(name(ports[i].type)));
         }
     }
     return fits;
@@ -123,27 +134,29 @@ std::optional<Target> Linker::outputTarget(const FunctorDescription& description
         error("M011", word.place, who + ": unknown option " + quoted(target), nameHint(target, namesOf(out_.options)));
     } else {
         const auto shader = indexOfName(out_.shaders, target);
-        if (shader)
-            return Target{part == "state" ? Target::Kind::ShaderState : Target::Kind::ShaderEnabled, *shader};
+        if (shader) return Target{part == "state" ? Target::Kind::ShaderState : Target::Kind::ShaderEnabled, *shader};
         error("M015", word.place, who + ": unknown shader " + quoted(target), nameHint(target, namesOf(out_.shaders)));
     }
     return {};
 }
 
-bool Linker::outputFits(const FunctorDescription& description, const Port& port, const Word& word, const Target& target) {
+bool Linker::outputFits(const FunctorDescription& description, const Port& port, const Word& word,
+                        const Target& target) {
     if (target.kind != Target::Kind::Input && target.kind != Target::Kind::Option) return true;
     const bool isInput = target.kind == Target::Kind::Input;
     const ValueType type = isInput ? out_.inputs[target.index].type : out_.options[target.index].type;
     if (isInput ? !sameShape(port.type, type) : !wholeFits(port.type, type)) {
-        error("M023", word.place, "output " + quoted(port.name) + " of functor " + quoted(description.id.text) + " is " +
-              std::string(name(port.type)) + ", " + quoted(targetName(target)) + " is " + std::string(name(type)));
+        error("M023", word.place,
+              "output " + quoted(port.name) + " of functor " + quoted(description.id.text) + " is " +
+                  std::string(name(port.type)) + ", " + quoted(targetName(target)) + " is " + std::string(name(type)));
         return false;
     }
     if (!isInput && type == ValueType::Enum && port.words != out_.options[target.index].words) {
         std::string known;
         for (const std::string& each : port.words) known += (known.empty() ? "" : ", ") + each;
-        error("M014", word.place, "values of option " + quoted(out_.options[target.index].name) +
-              " differ from those of output " + quoted(port.name) + " of functor " + quoted(description.id.text),
+        error("M014", word.place,
+              "values of option " + quoted(out_.options[target.index].name) + " differ from those of output " +
+                  quoted(port.name) + " of functor " + quoted(description.id.text),
               "they must be, in this order: " + known);
         return false;
     }
@@ -154,6 +167,7 @@ bool Linker::linkFunctorOutputs(const FunctorDescription& description, FunctorUs
     bool fits = true;
     const std::vector<Port>& ports = use.type.out;
     std::vector<bool> named(ports.size(), false);
+    bool misnamed = false;
     use.out.resize(ports.size());
     const std::string who = "functor " + quoted(description.id.text);
     for (const FunctorDescription::Link& link : description.out) {
@@ -162,20 +176,23 @@ bool Linker::linkFunctorOutputs(const FunctorDescription& description, FunctorUs
             error("M021", link.port.place, who + ": " + use.type.name + " has no output " + quoted(link.port.text),
                   nameHint(link.port.text, portNames(ports)));
             fits = false;
+            misnamed = true;
             continue;
         }
         named[*port] = true;
         const std::optional<Target> target = outputTarget(description, ports[*port], link.target);
-        if (!target || !drive(*target, link.target, who) || !outputFits(description, ports[*port], link.target, *target)) {
+        if (!target || !drive(*target, link.target, who) ||
+            !outputFits(description, ports[*port], link.target, *target)) {
             fits = false;
             continue;
         }
         use.out[*port] = *target;
     }
     for (std::size_t i = 0; i < ports.size(); ++i) {
-        if (named[i] || ports[i].optional) continue;
-        error("M025", description.outPlace, who + ": output " + quoted(ports[i].name) + " of " + use.type.name +
-              " is not connected", "name what it drives");
+        if (named[i] || misnamed || ports[i].optional) continue;
+        error("M025", description.outPlace,
+              who + ": output " + quoted(ports[i].name) + " of " + use.type.name + " is not connected",
+              "name what it drives");
         fits = false;
     }
     return fits;
@@ -191,9 +208,10 @@ void Linker::optionDefault(const Target& target, const Value& value, std::string
                    ? quoted(option.words[static_cast<std::size_t>(index)])
                    : std::to_string(index);
     };
-    warn("M029", description_.options[target.index].defaultValue->place, "default of option " + quoted(option.name) +
-         " is " + shownValue(option.defaultValue) + ", but " + std::string(by) + " makes it " + shownValue(value.integer) +
-         " at the defaults of the properties", "write the same value");
+    warn("M029", description_.options[target.index].defaultValue->place,
+         "default of option " + quoted(option.name) + " is " + shownValue(option.defaultValue) + ", but " +
+             std::string(by) + " makes it " + shownValue(value.integer) + " at the defaults of the properties",
+         "write the same value");
 }
 
 void Linker::probeConnections() {
@@ -217,13 +235,15 @@ void Linker::probeFunctors() {
             const Port& port = use.type.out[i];
             if (use.out[i].kind == Target::Kind::None) continue;
             const auto value = outputs.values().find(i);
-            const bool isSet = port.kind == Port::Kind::State ? outputs.states().count(i) != 0
-                               : value == outputs.values().end() ? false
+            const bool isSet = port.kind == Port::Kind::State     ? outputs.states().count(i) != 0
+                               : value == outputs.values().end()  ? false
                                : port.kind == Port::Kind::Enabled ? value->second.type == ValueType::Bool
                                                                   : wholeFits(value->second.type, port.type);
             if (!isSet) {
-                error("M028", description->type.place, "functor type " + quoted(use.type.name) + " does not set its output " +
-                      quoted(port.name) + " to a value of its type", "this is a fault of the program, not of the file");
+                error("M028", description->type.place,
+                      "functor type " + quoted(use.type.name) + " does not set its output " + quoted(port.name) +
+                          " to a value of its type",
+                      "this is a fault of the program, not of the file");
             } else if (use.out[i].kind == Target::Kind::Option) {
                 optionDefault(use.out[i], value->second, "functor " + quoted(use.id));
             }

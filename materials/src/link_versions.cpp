@@ -20,8 +20,10 @@ void Linker::linkVersions() {
     std::map<std::string, json::Place> retired;
     for (const VersionDescription& description : description_.versions) {
         if (description.to <= last || description.to > description_.version)
-            error("M040", description.place, "version update to " + std::to_string(description.to) +
-                  (description.to <= last ? " does not rise" : " is beyond version " + std::to_string(description_.version)),
+            error("M040", description.place,
+                  "version update to " + std::to_string(description.to) +
+                      (description.to <= last ? " does not rise"
+                                              : " is beyond version " + std::to_string(description_.version)),
                   "updates go from 2 to the type's \"version\", each once");
         last = std::max(last, description.to);
         VersionStep step;
@@ -63,8 +65,9 @@ void Linker::linkPresets() {
         for (const ValueDescription& set : description.values) {
             const auto property = out_.indexOf(set.property.text);
             if (!property) {
-                error("V002", set.property.place, "preset " + quoted(preset.name) + ": the type has no property " +
-                      quoted(set.property.text), nameHint(set.property.text, propertyIds(out_.properties)));
+                error("V002", set.property.place,
+                      "preset " + quoted(preset.name) + ": the type has no property " + quoted(set.property.text),
+                      nameHint(set.property.text, propertyIds(out_.properties)));
             } else if (const std::optional<Value> value = this->value(set, *property)) {
                 preset.values.emplace_back(*property, *value);
             }

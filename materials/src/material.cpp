@@ -8,13 +8,20 @@ namespace pelage::materials {
 namespace {
 
 Diagnostic unknownProperty(std::string_view id, const MaterialType& type) {
-    return {Severity::Error, "V002", {}, 0, 0, "material type has no property '" + std::string(id) + "'",
+    return {Severity::Error,
+            "V002",
+            {},
+            0,
+            0,
+            "material type has no property '" + std::string(id) + "'",
             nameHint(id, propertyIds(type.properties()))};
 }
 
 }  // namespace
 
-Material::Material(std::shared_ptr<const MaterialType> type) : type_(std::move(type)) { reset(); }
+Material::Material(std::shared_ptr<const MaterialType> type) : type_(std::move(type)) {
+    reset();
+}
 
 void Material::reset() {
     const std::vector<Property>& properties = type_->properties();
@@ -27,7 +34,8 @@ void Material::reset() {
     }
 }
 
-std::optional<Diagnostic> Material::assign(std::string_view id, const std::function<Conversion(const Property&)>& from) {
+std::optional<Diagnostic> Material::assign(std::string_view id,
+                                           const std::function<Conversion(const Property&)>& from) {
     const auto index = type_->linked().indexOf(id);
     if (!index) return unknownProperty(id, *type_);
     Conversion converted = from(type_->properties()[*index]);
@@ -61,7 +69,12 @@ std::optional<Diagnostic> Material::applyPreset(std::string_view name) {
         }
         return {};
     }
-    return Diagnostic{Severity::Error, "V008", {}, 0, 0, "material type has no preset '" + std::string(name) + "'",
+    return Diagnostic{Severity::Error,
+                      "V008",
+                      {},
+                      0,
+                      0,
+                      "material type has no preset '" + std::string(name) + "'",
                       nameHint(name, type_->presets())};
 }
 
@@ -69,14 +82,16 @@ bool Material::isVisible(std::string_view id) const {
     const auto index = type_->linked().indexOf(id);
     if (!index) return true;
     const std::vector<Condition>& conditions = type_->linked().visibleWhen[*index];
-    return std::all_of(conditions.begin(), conditions.end(), [&](const Condition& each) { return each.evaluate(values_); });
+    return std::all_of(conditions.begin(), conditions.end(),
+                       [&](const Condition& each) { return each.evaluate(values_); });
 }
 
 bool Material::isEnabled(std::string_view id) const {
     const auto index = type_->linked().indexOf(id);
     if (!index) return true;
     const std::vector<Condition>& conditions = type_->linked().enabledWhen[*index];
-    return std::all_of(conditions.begin(), conditions.end(), [&](const Condition& each) { return each.evaluate(values_); });
+    return std::all_of(conditions.begin(), conditions.end(),
+                       [&](const Condition& each) { return each.evaluate(values_); });
 }
 
 }  // namespace pelage::materials

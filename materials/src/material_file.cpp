@@ -14,8 +14,8 @@ struct MaterialReader {
     Diagnostics diagnostics = {};
 
     void report(Severity severity, std::string code, json::Place place, std::string text, std::string hint = {}) {
-        diagnostics.add({severity, std::move(code), document.file, place.line, place.column, std::move(text),
-                         std::move(hint)});
+        diagnostics.add(
+            {severity, std::move(code), document.file, place.line, place.column, std::move(text), std::move(hint)});
     }
 
     Checked<Material::Parsed> run() {
@@ -43,8 +43,10 @@ struct MaterialReader {
         const MaterialType::Linked& linked = material.type().linked();
         const json::Value& version = *document.root.find("typeVersion");
         if (version.number > linked.version) {
-            report(Severity::Error, "V001", version.place, "material was saved with type version " + shown(version.number) +
-                   ", this type is version " + std::to_string(linked.version), "update the library, or save again");
+            report(Severity::Error, "V001", version.place,
+                   "material was saved with type version " + shown(version.number) + ", this type is version " +
+                       std::to_string(linked.version),
+                   "update the library, or save again");
             return;
         }
         // An older file that says nothing of a property relied on the value it had then.

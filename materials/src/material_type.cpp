@@ -42,15 +42,33 @@ Parsed MaterialType::load(const std::string& path, const FunctorRegistry& regist
     return MaterialTypeReader::make(json::parseFile(path), registry);
 }
 
-const std::string& MaterialType::name() const { return linked_->name; }
-const std::string& MaterialType::file() const { return linked_->file; }
-int MaterialType::version() const { return linked_->version; }
-const std::vector<Property>& MaterialType::properties() const { return linked_->properties; }
-const std::vector<Input>& MaterialType::inputs() const { return linked_->inputs; }
-const std::vector<Option>& MaterialType::options() const { return linked_->options; }
-const std::vector<ShaderUse>& MaterialType::shaders() const { return linked_->shaders; }
-const std::vector<std::string>& MaterialType::presets() const { return linked_->presetNames; }
-const Diagnostics& MaterialType::warnings() const { return linked_->warnings; }
+const std::string& MaterialType::name() const {
+    return linked_->name;
+}
+const std::string& MaterialType::file() const {
+    return linked_->file;
+}
+int MaterialType::version() const {
+    return linked_->version;
+}
+const std::vector<Property>& MaterialType::properties() const {
+    return linked_->properties;
+}
+const std::vector<Input>& MaterialType::inputs() const {
+    return linked_->inputs;
+}
+const std::vector<Option>& MaterialType::options() const {
+    return linked_->options;
+}
+const std::vector<ShaderUse>& MaterialType::shaders() const {
+    return linked_->shaders;
+}
+const std::vector<std::string>& MaterialType::presets() const {
+    return linked_->presetNames;
+}
+const Diagnostics& MaterialType::warnings() const {
+    return linked_->warnings;
+}
 
 const Property* MaterialType::find(std::string_view id) const {
     const auto index = linked_->indexOf(id);

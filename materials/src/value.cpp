@@ -9,9 +9,16 @@ namespace pelage::materials {
 namespace {
 
 constexpr std::array<std::pair<ValueType, std::string_view>, 11> typeNames{{
-    {ValueType::Bool, "bool"}, {ValueType::Int, "int"}, {ValueType::Uint, "uint"}, {ValueType::Float, "float"},
-    {ValueType::Float2, "float2"}, {ValueType::Float3, "float3"}, {ValueType::Float4, "float4"},
-    {ValueType::Color, "color"}, {ValueType::Enum, "enum"}, {ValueType::Texture2D, "texture2d"},
+    {ValueType::Bool, "bool"},
+    {ValueType::Int, "int"},
+    {ValueType::Uint, "uint"},
+    {ValueType::Float, "float"},
+    {ValueType::Float2, "float2"},
+    {ValueType::Float3, "float3"},
+    {ValueType::Float4, "float4"},
+    {ValueType::Color, "color"},
+    {ValueType::Enum, "enum"},
+    {ValueType::Texture2D, "texture2d"},
     {ValueType::TextureCube, "textureCube"},
 }};
 

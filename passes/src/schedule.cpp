@@ -108,6 +108,16 @@ private:
                                          "did you mean '" + modifier + "." + version.modifierSlot + "'?");
             }
         }
+        for (const ExportDeclaration& each : linker_.tree.exports) {
+            const auto found = linker_.exportVersions.find(each.name);
+            if (found == linker_.exportVersions.end()) continue;
+            const Version& version = linker_.versions[found->second];
+            if (version.modifier == none || !linker_.passes[version.modifier].live) continue;
+            const std::string modifier = linker_.passes[version.modifier].says->name;
+            linker_.reporter.warning(each.fromPlace, "P033", "export '" + each.name + "' shows '" +
+                                         linker_.resources[version.resource].plan.name + "' as '" + modifier + "' leaves it",
+                                     "did you mean '" + modifier + "." + version.modifierSlot + "'?");
+        }
     }
 
     Linker& linker_;

@@ -73,9 +73,10 @@ std::shared_ptr<AdapterObject> inspectAdapter(std::shared_ptr<InstanceObject> in
     vk.vkGetPhysicalDeviceQueueFamilyProperties(device, &families, nullptr);
     std::vector<VkQueueFamilyProperties> queues(families);
     vk.vkGetPhysicalDeviceQueueFamilyProperties(device, &families, queues.data());
-    constexpr VkQueueFlags wanted = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
-    const auto family =
-        std::find_if(queues.begin(), queues.end(), [](const auto& q) { return (q.queueFlags & wanted) == wanted; });
+    const auto family = std::find_if(queues.begin(), queues.end(), [](const auto& q) {
+        constexpr VkQueueFlags both = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT;
+        return (q.queueFlags & both) == both;
+    });
     if (family == queues.end()) return nullptr;
 
     auto adapter = std::make_shared<AdapterObject>();

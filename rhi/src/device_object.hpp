@@ -82,17 +82,16 @@ struct DeviceObject : std::enable_shared_from_this<DeviceObject> {
     void bury(std::uint64_t value, std::function<void(DeviceObject&)> destroy);
     void collect();
     std::uint64_t completed();
-    void nameObject(VkObjectType type, std::uint64_t handle, const std::string& label) const;
+    void nameObject(VkObjectType type, std::uint64_t object, const std::string& text) const;
     template <class T>
-    void nameObject(VkObjectType type, T handle, const std::string& label) const {
-        nameObject(type, reinterpret_cast<std::uint64_t>(handle), label);
+    void nameObject(VkObjectType type, T object, const std::string& text) const {
+        nameObject(type, reinterpret_cast<std::uint64_t>(object), text);
     }
     Result<std::pair<VkDescriptorSet, VkDescriptorPool>> allocateSet(VkDescriptorSetLayout layout,
                                                                      const std::string& object);
     void freeSet(VkDescriptorSet set, VkDescriptorPool pool);
 
     std::shared_ptr<AdapterObject> adapter;
-    const DeviceFunctions& vk() const { return functions; }
     DeviceFunctions functions;
     VkDevice handle = VK_NULL_HANDLE;
     std::string label;

@@ -39,16 +39,16 @@ void ComputePassEncoder::setPushConstants(std::uint32_t offset, std::span<const 
 void ComputePassEncoder::dispatchWorkgroups(std::uint32_t x, std::uint32_t y, std::uint32_t z) {
     if (!encoder_ || !encoder_->ready(EncoderObject::State::ComputePass, "dispatchWorkgroups")) return;
     auto& e = *encoder_;
-    const auto command = cat("dispatch #", e.pass.commands++);
+    const detail::CommandName command{"dispatch #", e.pass.commands++};
     if (!e.pass.pipeline)
         return e.fail(invalid(ErrorCode::MissingState, "dispatchWorkgroups() needs a pipeline, and none is set.").value(),
-                      command);
+                      command.text());
     const auto limit = e.device->info.limits.maxComputeWorkgroupsPerDimension;
     if (x > limit || y > limit || z > limit)
         return e.fail(invalid(ErrorCode::OutOfRange, cat("dispatchWorkgroups(", x, ", ", y, ", ", z,
                                                          ") is above the device's limit of ", limit, " per dimension."))
                           .value(),
-                      command);
+                      command.text());
     if (x == 0 || y == 0 || z == 0) return;
     e.pass.merged.clear();
     if (!e.flushBindings(VK_PIPELINE_BIND_POINT_COMPUTE, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, command)) return;

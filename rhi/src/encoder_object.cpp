@@ -104,7 +104,7 @@ bool EncoderObject::ready(State wanted, std::string_view call) {
     return false;
 }
 
-bool EncoderObject::use(const Use& wanted, const std::string& innermost) {
+bool EncoderObject::use(const Use& wanted, const CommandName& command) {
     const Use* other = scope.add(wanted);
     if (other == nullptr) return true;
     const auto place = [](const Use& u) {
@@ -115,7 +115,7 @@ bool EncoderObject::use(const Use& wanted, const std::string& innermost) {
                  cat(wanted.object->describe(), " is used as ", name(other->kind), place(*other), " and as ",
                      name(wanted.kind), place(wanted), " in one scope."))
              .value(),
-         innermost);
+         command.text());
     return false;
 }
 
@@ -246,9 +246,9 @@ void EncoderObject::endPass() {
     pass = PassState{};
 }
 
-bool EncoderObject::flushBindings(VkPipelineBindPoint point, VkPipelineStageFlags2 stages, const std::string& command) {
+bool EncoderObject::flushBindings(VkPipelineBindPoint point, VkPipelineStageFlags2 stages, const CommandName& command) {
     const auto stop = [&](ErrorCode code, std::string text) {
-        fail(invalid(code, std::move(text)).value(), command);
+        fail(invalid(code, std::move(text)).value(), command.text());
         return false;
     };
     auto& layout = *pass.pipeline->layout;

@@ -21,6 +21,13 @@ private:
     std::unordered_map<const Object*, std::int32_t> first_;
 };
 
+/// "draw #3", spelled out only when something is wrong.
+struct CommandName {
+    std::string_view word = {};
+    std::uint32_t number = 0;
+    std::string text() const { return word.empty() ? std::string() : cat(word, number); }
+};
+
 struct BoundGroup {
     std::shared_ptr<BindGroupObject> group;
     std::vector<std::uint32_t> offsets;
@@ -74,7 +81,7 @@ struct EncoderObject {
         return true;
     }
     void add(Packet packet) { recording.packets.push_back(std::move(packet)); }
-    bool use(const Use& use, const std::string& innermost = {});
+    bool use(const Use& use, const CommandName& command = {});
     void closeScope(std::size_t packetIndex);
 
     // Shared by render and compute passes.
@@ -85,7 +92,7 @@ struct EncoderObject {
     bool timestamps(const std::optional<TimestampWrites>& writes);
     bool queryIndex(const QuerySet& set, QueryType type, std::uint32_t index, std::string_view what);
     /// Binds what the pipeline needs and merges its groups into the scope. False after an error.
-    bool flushBindings(VkPipelineBindPoint point, VkPipelineStageFlags2 stages, const std::string& command);
+    bool flushBindings(VkPipelineBindPoint point, VkPipelineStageFlags2 stages, const CommandName& command);
     void beginPass(State state, std::string context, const std::string& passLabel,
                    const std::optional<TimestampWrites>& writes);
     void endPass();

@@ -65,7 +65,9 @@ struct PassBuilder {
         u.kind = kind;
         u.range = view.range;
         u.access = detail::accessOf(kind, 0, depth);
-        return e.use(u, cat("RenderPass \"", pass.label, '"'));
+        if (e.use(u)) return true;
+        e.error->context.insert(e.error->context.begin(), cat("RenderPass \"", pass.label, '"'));
+        return false;
     }
     bool color(const RenderPassColorAttachment& a, std::size_t index);
     bool depthStencil(const RenderPassDepthStencilAttachment& a);
@@ -152,8 +154,6 @@ RenderPassEncoder CommandEncoder::beginRenderPass(const RenderPassDescriptor& d)
                                                 " colour attachments; the device allows ", limit, '.'));
         return encoder;
     }
-    const auto scope = std::move(e.scope);
-    e.scope = {};
     for (std::size_t i = 0; i < d.colorAttachments.size(); ++i)
         if (!builder.color(d.colorAttachments[i], i)) return encoder;
     if (d.depthStencilAttachment && !builder.depthStencil(*d.depthStencilAttachment)) return encoder;
@@ -308,9 +308,9 @@ void RenderPassEncoder::setLineWidth(float width) {
 namespace {
 
 /// Everything a draw needs is set and large enough.
-bool readyToDraw(EncoderObject& e, const std::string& command, std::uint64_t vertices, std::uint64_t instances) {
+bool readyToDraw(EncoderObject& e, const detail::CommandName& command, std::uint64_t vertices, std::uint64_t instances) {
     const auto stop = [&](ErrorCode code, std::string text) {
-        e.fail(invalid(code, std::move(text)).value(), command);
+        e.fail(invalid(code, std::move(text)).value(), command.text());
         return false;
     };
     if (!e.pass.pipeline) return stop(ErrorCode::MissingState, "A draw needs a pipeline, and none is set.");
@@ -340,7 +340,7 @@ void RenderPassEncoder::draw(std::uint32_t vertexCount, std::uint32_t instanceCo
                              std::uint32_t firstInstance) {
     if (!encoder_ || !encoder_->ready(State::RenderPass, "draw")) return;
     auto& e = *encoder_;
-    const auto command = cat("draw #", e.pass.commands++);
+    const detail::CommandName command{"draw #", e.pass.commands++};
     if (!readyToDraw(e, command, vertexCount == 0 ? 0 : std::uint64_t{firstVertex} + vertexCount,
                      instanceCount == 0 ? 0 : std::uint64_t{firstInstance} + instanceCount))
         return;
@@ -354,10 +354,10 @@ void RenderPassEncoder::drawIndexed(std::uint32_t indexCount, std::uint32_t inst
                                     std::int32_t baseVertex, std::uint32_t firstInstance) {
     if (!encoder_ || !encoder_->ready(State::RenderPass, "drawIndexed")) return;
     auto& e = *encoder_;
-    const auto command = cat("drawIndexed #", e.pass.commands++);
+    const detail::CommandName command{"drawIndexed #", e.pass.commands++};
     if (!e.pass.index.buffer)
         return e.fail(invalid(ErrorCode::MissingState, "drawIndexed() needs an index buffer, and none is set.").value(),
-                      command);
+                      command.text());
     const std::uint64_t stride = e.pass.indexFormat == IndexFormat::Uint16 ? 2 : 4;
     const std::uint64_t end = e.pass.index.offset + (std::uint64_t{firstIndex} + indexCount) * stride;
     if (end > e.pass.index.buffer->descriptor.size)
@@ -365,7 +365,7 @@ void RenderPassEncoder::drawIndexed(std::uint32_t indexCount, std::uint32_t inst
                               cat("The draw reads ", end, " bytes of ", e.pass.index.buffer->describe(),
                                   " as indices, which has ", e.pass.index.buffer->descriptor.size, '.'))
                           .value(),
-                      command);
+                      command.text());
     // How far the indices reach is known only on the device; instances are known here.
     if (!readyToDraw(e, command, 0, instanceCount == 0 ? 0 : std::uint64_t{firstInstance} + instanceCount)) return;
     e.pass.groupsChanged = false;

@@ -67,26 +67,26 @@ void DeviceObject::collect() {
     for (auto& grave : ready) grave.destroy(*this);
 }
 
-void DeviceObject::nameObject(VkObjectType type, std::uint64_t object, const std::string& name) const {
+void DeviceObject::nameObject(VkObjectType type, std::uint64_t object, const std::string& text) const {
     const auto& instance = *adapter->instance;
-    if (!instance.debugUtils || instance.vk.vkSetDebugUtilsObjectNameEXT == nullptr || name.empty()) return;
-    VkDebugUtilsObjectNameInfoEXT info = {VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT};
-    info.objectType = type;
-    info.objectHandle = object;
-    info.pObjectName = name.c_str();
-    instance.vk.vkSetDebugUtilsObjectNameEXT(handle, &info);
+    if (!instance.debugUtils || instance.vk.vkSetDebugUtilsObjectNameEXT == nullptr || text.empty()) return;
+    VkDebugUtilsObjectNameInfoEXT named = {VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT};
+    named.objectType = type;
+    named.objectHandle = object;
+    named.pObjectName = text.c_str();
+    instance.vk.vkSetDebugUtilsObjectNameEXT(handle, &named);
 }
 
 Result<std::pair<VkDescriptorSet, VkDescriptorPool>> DeviceObject::allocateSet(VkDescriptorSetLayout layout,
                                                                                const std::string& object) {
     const std::lock_guard lock(poolMutex);
-    VkDescriptorSetAllocateInfo info = {VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
-    info.descriptorSetCount = 1;
-    info.pSetLayouts = &layout;
+    VkDescriptorSetAllocateInfo allocate = {VK_STRUCTURE_TYPE_DESCRIPTOR_SET_ALLOCATE_INFO};
+    allocate.descriptorSetCount = 1;
+    allocate.pSetLayouts = &layout;
     VkDescriptorSet set = VK_NULL_HANDLE;
     for (std::size_t i = pools.size(); i-- > 0;) {
-        info.descriptorPool = pools[i];
-        if (functions.vkAllocateDescriptorSets(handle, &info, &set) == VK_SUCCESS) return std::pair(set, pools[i]);
+        allocate.descriptorPool = pools[i];
+        if (functions.vkAllocateDescriptorSets(handle, &allocate, &set) == VK_SUCCESS) return std::pair(set, pools[i]);
     }
     constexpr std::uint32_t sets = 256;
     const VkDescriptorPoolSize sizes[] = {
@@ -99,12 +99,12 @@ Result<std::pair<VkDescriptorSet, VkDescriptorPool>> DeviceObject::allocateSet(V
     pool.maxSets = sets;
     pool.poolSizeCount = static_cast<std::uint32_t>(std::size(sizes));
     pool.pPoolSizes = sizes;
-    if (const auto r = functions.vkCreateDescriptorPool(handle, &pool, nullptr, &info.descriptorPool); r != VK_SUCCESS)
+    if (const auto r = functions.vkCreateDescriptorPool(handle, &pool, nullptr, &allocate.descriptorPool); r != VK_SUCCESS)
         return forward(vulkanError(r, "vkCreateDescriptorPool", object));
-    pools.push_back(info.descriptorPool);
-    if (const auto r = functions.vkAllocateDescriptorSets(handle, &info, &set); r != VK_SUCCESS)
+    pools.push_back(allocate.descriptorPool);
+    if (const auto r = functions.vkAllocateDescriptorSets(handle, &allocate, &set); r != VK_SUCCESS)
         return forward(vulkanError(r, "vkAllocateDescriptorSets", object));
-    return std::pair(set, info.descriptorPool);
+    return std::pair(set, allocate.descriptorPool);
 }
 
 void DeviceObject::freeSet(VkDescriptorSet set, VkDescriptorPool pool) {

@@ -102,6 +102,10 @@ struct Recording {
     std::vector<std::byte> bytes;  // push constants
     std::vector<std::shared_ptr<Object>> references;
     std::unordered_set<const Object*> referenced;
+    // Pending uploads are held by the device itself, so they must not hold what holds the device.
+    std::unordered_map<const Object*, std::weak_ptr<Object>> weak;
+    /// Forgets the uploads to objects that are gone.
+    void dropDead();
 
     void keep(const std::shared_ptr<Object>& object) {
         if (referenced.insert(object.get()).second) references.push_back(object);

@@ -18,12 +18,12 @@ namespace {
 
 constexpr const char* yardstick = "kajiya_kay";
 
-/// The thesis' model and the two it is compared with; the name of each material type.
+/// The thesis' model and the two it is compared with, in the same colour: shipped materials.
 struct Contender {
     const char* name;
     const char* material;
 };
-constexpr Contender contenders[] = {{"thesis", "hair"}, {yardstick, yardstick}, {"standard_pbr", "standard_pbr"}};
+constexpr Contender contenders[] = {{"thesis", "brown"}, {yardstick, "kajiya_brown"}, {"standard_pbr", "pbr_brown"}};
 
 double median(std::vector<double> values) {
     if (values.empty()) return 0;

@@ -6,6 +6,7 @@
 #include <pelage/hair/functors.hpp>
 #include <pelage/hair/library.hpp>
 #include <pelage/hair/scene_file.hpp>
+#include <pelage/json/value.hpp>
 
 #include <cstdio>
 #include <filesystem>
@@ -19,12 +20,29 @@ Diagnostics faultsOf(const Checked<T>& read, const Diagnostics& warnings) {
     return read ? warnings : read.error();
 }
 
+/// A host that lends all the tree asks for, so that what is left for run time is the host.
+passes::HostDescription generousHost(const std::string& path) {
+    passes::HostDescription host{.extent = {640, 640, 1}};
+    const auto document = json::parseFile(path);
+    const json::Value* imports = document ? document->root.find("imports") : nullptr;
+    if (!imports) return host;
+    for (const json::Member& import : imports->members) {
+        passes::ImportDescription lent{
+            .present = true, .format = rhi::TextureFormat::RGBA16Float, .extent = host.extent};
+        const json::Value* formats = import.value.find("formats");
+        if (formats && !formats->elements.empty()) {
+            lent.format = rhi::textureFormatFromName(formats->elements.front().string);
+        }
+        host.imports[import.key] = lent;
+    }
+    return host;
+}
+
 Diagnostics checkPassTree(const std::string& path) {
     const auto tree = passes::PassTree::load(path);
     if (!tree) return tree.error();
     Diagnostics found = (*tree)->warnings();
-    // Links and schedules as well, with every import a host may lend, so that what is left for run time is the host.
-    const auto plan = (*tree)->compile({.extent = {640, 640, 1}});
+    const auto plan = (*tree)->compile(generousHost(path));
     found.append(plan ? plan->warnings : plan.error());
     return found;
 }

@@ -19,7 +19,6 @@ int render(const RenderOptions& options) {
     hair::Library library(dataDirectory());
     auto stage = makeStage(options.stage, library);
     if (!stage) return report(stage.error());
-    warn(stage->file.notes);
 
     auto gpu = openGpu(options.device);
     if (!gpu) return report(gpu.error());
@@ -28,6 +27,7 @@ int render(const RenderOptions& options) {
     auto picture = renderer->render(stage->file.scene, stage->file.frame);
     if (!picture) return report(Failure(picture.error()));
 
+    warn(stage->file.notes);
     std::vector<std::string> outputs = options.outputs;
     if (outputs.empty()) outputs.push_back(stage->name + ".png");
     for (const std::string& output : outputs) {

@@ -6,6 +6,8 @@
 
 #include <pelage/hair/generate.hpp>
 
+#include <cstdlib>
+
 namespace pelage::hair::testing {
 namespace {
 

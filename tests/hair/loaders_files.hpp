@@ -5,10 +5,13 @@
 #include <pelage/hair/load.hpp>
 
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <random>
+#include <span>
 
 namespace pelage::hair::testing {
 

@@ -2,8 +2,11 @@
 // Cards from glTF: directions, islands, and every fault that tinygltf lets pass.
 #include "loaders_files.hpp"
 
+#include <chrono>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
 #include <limits>
-#include <set>
 
 namespace pelage::hair::testing {
 namespace {
@@ -118,6 +121,35 @@ TEST(Gltf, MissingPartsHaveTheirCodes) {
     expectFault(readWith([](GlbFile& f) { f.json["images"][0] = {{"uri", "away.png"}}; }), "G005");
     expectFault(readWith([](GlbFile& f) { f.json["textures"][0]["source"] = 9; }), "G016");
     expectFault(readWith([](GlbFile& f) { f.primitive()["material"] = 9; }), "G016");
+}
+
+TEST(Gltf, TextFilesFindTheirBuffersAndImagesBesideThem) {
+    namespace fs = std::filesystem;
+    const auto tick = std::chrono::steady_clock::now().time_since_epoch().count();
+    const fs::path folder = fs::temp_directory_path() / ("pelage-gltf-" + std::to_string(tick));
+    fs::create_directory(folder);
+    const auto write = [&](const char* name, const void* data, std::size_t size) {
+        std::ofstream stream(folder / name, std::ios::binary);
+        stream.write(static_cast<const char*>(data), static_cast<std::streamsize>(size));
+    };
+    GlbFile file;
+    file.json["buffers"][0]["uri"] = "card.bin";
+    file.json["images"][0] = {{"uri", "card.bmp"}};
+    const std::string text = file.json.dump();
+    const Bytes image = bmpFile();
+    write("card.gltf", text.data(), text.size());
+    const std::string path = (folder / "card.gltf").string();
+    expectFault(loadGltf(path), "G005");
+    write("card.bin", file.bin.data(), file.bin.size());
+    expectFault(loadGltf(path), "G005");
+    write("card.bmp", image.data(), image.size());
+    const auto cards = loadGltf(path);
+    ASSERT_TRUE(cards) << cards.error().text;
+    EXPECT_EQ(cards->colorMap.width, 2U);
+    EXPECT_TRUE(loadAsset(path));
+    write("card.bin", file.bin.data(), file.bin.size() - 1);
+    EXPECT_FALSE(loadGltf(path));
+    fs::remove_all(folder);
 }
 
 TEST(Gltf, AccessorsAreCheckedAgainstTheirBuffers) {

@@ -2,6 +2,8 @@
 // .tfx and .hair: what is read, and what is said about every kind of damage.
 #include "loaders_files.hpp"
 
+#include <chrono>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>

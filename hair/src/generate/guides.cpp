@@ -6,6 +6,7 @@
 #include "head.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pelage::hair {
 namespace {

@@ -5,6 +5,9 @@
 #include "readers.hpp"
 #include "reading.hpp"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 #include <glm/gtc/type_ptr.hpp>

@@ -5,7 +5,9 @@
 
 #include <pelage/hair/load.hpp>
 
+#include <algorithm>
 #include <filesystem>
+#include <limits>
 
 namespace pelage::hair::gltf {
 namespace {
@@ -23,7 +25,8 @@ struct Folder {
 
 bool isInside(const Folder& folder, const std::string& path) {
     // tinygltf also looks in the current folder; a model must not pick up files that merely lie there.
-    return !folder.path.empty() && path.starts_with(folder.path + "/");
+    const std::string prefix = folder.path.ends_with('/') ? folder.path : folder.path + "/";
+    return !folder.path.empty() && path.starts_with(prefix);
 }
 
 bool fileExists(const std::string& path, void* user) {

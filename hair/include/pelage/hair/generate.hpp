@@ -23,6 +23,8 @@ struct GroomDescriptor {
     std::uint32_t seed = 1;
 };
 /// Strands rooted on the scalp of makeHead(), combed around it and never inside it, in clumps, with flyaways.
+/// Waves and curls are never tighter than 4 points a turn: for pitches of 2.5 cm ask for 4 points per 2.5 cm of length.
+/// Ponytail: `length` is that of the tail; strands are longer by their way over the scalp to the tie.
 Groom makeGroom(const GroomDescriptor& descriptor);
 
 struct CardsDescriptor {

@@ -69,7 +69,8 @@ public:
     Diagnostics validate(const Document& document) const;
 
 private:
-    std::shared_ptr<const Document> document_;
+    struct Compiled;
+    std::shared_ptr<const Compiled> compiled_;
 };
 
 }  // namespace pelage::json

@@ -1,0 +1,358 @@
+// SPDX-License-Identifier: MIT
+// Small frames on a device, read back exactly.
+#include <pelage/passes/graph.hpp>
+
+#include <array>
+#include <gpu.hpp>
+
+namespace pelage::passes::test {
+std::span<const std::uint32_t> embeddedShader(std::string_view name);
+namespace {
+
+using Pixel = std::array<std::uint8_t, 4>;
+
+constexpr const char* triangleTree = R"json({
+  "format": "pelage.passtree/1",
+  "name": "Triangle",
+  "settings": {
+    "msaa": { "type": "enum", "values": ["1", "4"], "default": "1" },
+    "gain": { "type": "uint", "default": 1, "min": 1, "max": 2 },
+    "swap": { "type": "bool", "default": false }
+  },
+  "views": { "main": { "count": 1 } },
+  "drawLists": ["all"],
+  "attachments": {
+    "Drawn": { "format": "RGBA8Unorm", "size": { "frame": 1 }, "samples": { "setting": "msaa" } },
+    "Depth": { "format": "Depth32Float", "size": { "frame": 1 }, "samples": { "setting": "msaa" } },
+    "Flat":  { "format": "RGBA8Unorm", "size": { "frame": 1 } },
+    "Out":   { "format": "RGBA8Unorm", "size": { "frame": 1 } }
+  },
+  "passes": [
+    { "name": "Draw", "kind": "raster", "view": "main", "drawList": "all",
+      "slots": {
+        "depth": { "access": "write", "as": "depth", "clear": { "depth": "far" } },
+        "color": { "access": "write", "as": "color", "clear": [0, 0, 0, 1] } },
+      "connect": { "depth": "att.Depth", "color": "att.Drawn" } },
+    { "name": "Average", "kind": "fullscreen", "shader": "average.frag", "enabledWhen": "msaa != '1'",
+      "slots": {
+        "source": { "access": "read", "as": "sampled", "bind": "u_source" },
+        "color": { "access": "write", "as": "color" } },
+      "connect": { "source": "Draw.color", "color": "att.Flat" } },
+    { "name": "Tint", "kind": "fullscreen", "shader": "tint.frag",
+      "slots": {
+        "source": { "access": "read", "as": "sampled", "bind": "u_source" },
+        "color": { "access": "write", "as": "color" } },
+      "connect": { "source": ["Average.color", "Draw.color"], "color": "att.Out" },
+      "constants": { "gain": { "setting": "gain" }, "swap": { "setting": "swap" } } }
+  ],
+  "exports": { "Picture": { "from": "Tint.color" } }
+})json";
+
+constexpr const char* shadowTree = R"json({
+  "format": "pelage.passtree/1",
+  "name": "Shadow",
+  "settings": { "lights": { "type": "uint", "default": 2, "min": 0, "max": 4 } },
+  "imports": { "Sky": { "kind": "imageCube", "access": "read", "optional": true } },
+  "views": { "lights": { "count": { "setting": "lights" } } },
+  "drawLists": ["all"],
+  "attachments": {
+    "Map": { "format": "Depth32Float", "size": { "square": 16 }, "layers": { "view": "lights" } },
+    "Lit": { "format": "RGBA8Unorm", "size": { "frame": 1 } },
+    "Inverse": { "format": "RGBA8Unorm", "size": { "like": "att.Lit" } },
+    "Copy": { "format": "RGBA8Unorm", "size": { "like": "att.Lit" } }
+  },
+  "passes": [
+    { "name": "Map", "kind": "raster", "view": "lights", "forEachView": "layer", "drawList": "all",
+      "slots": { "map": { "access": "write", "as": "depth", "clear": { "depth": "far" } } },
+      "connect": { "map": "att.Map" }, "whenDisabled": { "map": "const.depthFarArray" } },
+    { "name": "Light", "kind": "fullscreen", "shader": "shadowed.frag",
+      "slots": {
+        "map": { "access": "read", "as": "sampled", "bind": "u_map" },
+        "sky": { "access": "read", "as": "sampled", "bind": "u_sky", "optional": true },
+        "color": { "access": "write", "as": "color" } },
+      "connect": { "map": "Map.map", "sky": "host.Sky", "color": "att.Lit" } },
+    { "name": "Invert", "kind": "compute", "shader": "invert.comp", "dispatchLike": "target", "threads": [8, 4, 1],
+      "slots": {
+        "source": { "access": "read", "as": "sampled", "bind": "u_source" },
+        "target": { "access": "write", "as": "storage", "bind": "i_target" } },
+      "connect": { "source": "Light.color", "target": "att.Inverse" } },
+    { "name": "Keep", "kind": "copy",
+      "slots": { "from": { "access": "read", "as": "copy" }, "to": { "access": "write", "as": "copy" } },
+      "connect": { "from": "Invert.target", "to": "att.Copy" } }
+  ],
+  "exports": { "Lit": { "from": "Light.color" }, "Copy": { "from": "Keep.to" } }
+})json";
+
+std::string edited(std::string text, const std::string& from, const std::string& to) {
+    const std::size_t at = text.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return at == std::string::npos ? text : text.replace(at, from.size(), to);
+}
+
+class GraphTest : public pelage::test::GpuTest {
+protected:
+    rhi::Result<rhi::ShaderModule> shader(const std::string& file) {
+        const auto code = embeddedShader(file);
+        if (code.empty()) return tl::unexpected(rhi::Error{.message = "no shader '" + file + "'"});
+        return gpu.device.createShaderModule({.label = file, .code = {code.begin(), code.end()}});
+    }
+    Graph graph() {
+        return Graph({.device = gpu.device, .shaders = [this](const std::string& file) { return shader(file); }});
+    }
+    static Checked<void> build(Graph& graph, const std::string& text, const HostDescription& host) {
+        const auto tree = PassTree::parse(text, "test.pass.json");
+        if (!tree) return tl::unexpected(tree.error());
+        return graph.build(**tree, host);
+    }
+    static void mustBuild(Graph& graph, const std::string& text, const HostDescription& host) {
+        const auto built = build(graph, text, host);
+        ASSERT_TRUE(built) << built.error().text();
+    }
+
+    // Draws the triangle with a pipeline made for the targets of the pass.
+    rhi::Result<void> drawTriangle(RasterContext& context) {
+        rhi::RenderPipelineDescriptor descriptor{.label = "triangle", .vertex = {.module = value(shader("triangle.vert"))}};
+        descriptor.multisample.count = context.targets.samples;
+        if (!context.targets.colors.empty()) descriptor.fragment = {.module = value(shader("triangle.frag"))};
+        for (const rhi::TextureFormat format : context.targets.colors) descriptor.targets.push_back({.format = format});
+        if (context.targets.depth != rhi::TextureFormat::Undefined) {
+            descriptor.depthStencil = {.format = context.targets.depth,
+                                       .depthWriteEnabled = !context.targets.depthReadOnly,
+                                       .depthCompare = rhi::CompareFunction::Always};
+        }
+        auto pipeline = gpu.device.createRenderPipeline(descriptor);
+        if (!pipeline) return tl::unexpected(std::move(pipeline.error()));
+        context.encoder.setPipeline(*pipeline);
+        context.encoder.draw(3);
+        context.draws += 1;
+        return {};
+    }
+    void frame(Graph& graph, const FrameImports& imports = {}) {
+        auto encoder = gpu.device.createCommandEncoder("frame");
+        pelage::test::succeed(graph.record(encoder, imports, [this](RasterContext& context) { return drawTriangle(context); }));
+        run(encoder);
+    }
+    template <class T>
+    static T value(rhi::Result<T> result) { return pelage::test::value(std::move(result)); }
+};
+
+bool inside(std::uint32_t x, std::uint32_t y, std::uint32_t side) { return x + y + 1 < side; }
+
+TEST_F(GraphTest, TriangleThroughAFullscreenPassIsExact) {
+    Graph made = graph();
+    mustBuild(made, triangleTree, {.extent = {32, 32, 1}});
+    frame(made);
+    const auto pixels = read<Pixel>(made.exported("Picture"));
+    ASSERT_EQ(pixels.size(), 32U * 32U);
+    for (std::uint32_t y = 0; y < 32; ++y) {
+        for (std::uint32_t x = 0; x < 32; ++x) {
+            if (x + y + 1 == 32) continue;  // the edge goes through these centres
+            const Pixel expected = inside(x, y, 32) ? Pixel{64, 128, 255, 255} : Pixel{0, 0, 0, 255};
+            ASSERT_EQ(pixels[y * 32 + x], expected) << x << ", " << y;
+        }
+    }
+    EXPECT_FALSE(made.exported("Nothing"));
+}
+
+TEST_F(GraphTest, SettingsReachSpecializationConstants) {
+    Graph made = graph();
+    HostDescription host{.extent = {8, 8, 1}};
+    host.settings["gain"] = {SettingValue::Type::Uint, 2, {}};
+    host.settings["swap"] = {SettingValue::Type::Bool, 1, {}};
+    mustBuild(made, triangleTree, host);
+    frame(made);
+    EXPECT_EQ(read<Pixel>(made.exported("Picture"))[0], (Pixel{255, 255, 128, 255}));
+}
+
+TEST_F(GraphTest, SamplesAreAveraged) {
+    Graph made = graph();
+    HostDescription host{.extent = {32, 32, 1}};
+    host.settings["msaa"] = {SettingValue::Type::Enum, 1, {}};
+    mustBuild(made, triangleTree, host);
+    ASSERT_EQ(made.plan().passes.size(), 3U);
+    frame(made);
+    const auto pixels = read<Pixel>(made.exported("Picture"));
+    EXPECT_EQ(pixels[0], (Pixel{64, 128, 255, 255}));
+    EXPECT_EQ(pixels[32 * 32 - 1], (Pixel{0, 0, 0, 255}));
+    int partly = 0;
+    for (std::uint32_t x = 0; x < 32; ++x) {
+        const std::uint8_t blue = pixels[(31 - x) * 32 + x][2];
+        partly += blue > 0 && blue < 255 ? 1 : 0;
+    }
+    EXPECT_GT(partly, 28) << "pixels on the edge are covered by some of their samples";
+}
+
+TEST_F(GraphTest, ReportsCountFragmentsAndDraws) {
+    Graph made = graph();
+    mustBuild(made, triangleTree, {.extent = {32, 32, 1}});
+    EXPECT_TRUE(made.reports().empty());
+    frame(made);
+    const auto reports = made.reports();
+    ASSERT_EQ(reports.size(), 2U);
+    EXPECT_EQ(reports[0].name, "Draw");
+    EXPECT_EQ(reports[0].draws, 1U);
+    EXPECT_EQ(reports[1].draws, 1U);
+    if (gpu.device.has(rhi::Feature::PipelineStatistics)) {
+        // Half of the target; a device that shades whole quads counts those too.
+        EXPECT_GE(reports[0].fragments, 32U * 31U / 2);
+        EXPECT_LE(reports[0].fragments, 32U * 32U);
+        EXPECT_GE(reports[1].fragments, 32U * 32U);
+        EXPECT_GE(reports[0].vertices, 3U);
+    }
+    if (gpu.device.has(rhi::Feature::Timestamps)) {
+        double sum = 0;
+        for (const PassReport& report : reports) sum += report.gpuMilliseconds;
+        EXPECT_GT(sum, 0.0);
+        EXPECT_GE(made.frameMilliseconds() * 1.0001, sum);
+    }
+}
+
+TEST_F(GraphTest, EachLayerIsARenderPassOfItsOwn) {
+    for (const DepthConvention depth : {DepthConvention::Reversed, DepthConvention::Conventional}) {
+        Graph made = graph();
+        mustBuild(made, shadowTree, {.extent = {12, 10, 1}, .depth = depth});
+        std::vector<std::uint32_t> views;
+        auto encoder = gpu.device.createCommandEncoder("frame");
+        pelage::test::succeed(made.record(encoder, {}, [&](RasterContext& context) {
+            views.push_back(context.viewIndex);
+            EXPECT_EQ(context.extent, (rhi::Extent3D{16, 16, 1}));
+            // Into the first layer only: the others stay far.
+            return context.viewIndex == 0 ? drawTriangle(context) : rhi::Result<void>{};
+        }));
+        run(encoder);
+        EXPECT_EQ(views, (std::vector<std::uint32_t>{0, 1}));
+        // The caster lies at 0.5: lit is what is as near or nearer. There is no sky, so black stands in.
+        const bool reversed = depth == DepthConvention::Reversed;
+        const Pixel lit{static_cast<std::uint8_t>(reversed ? 255 : 0), static_cast<std::uint8_t>(reversed ? 0 : 255), 0, 255};
+        EXPECT_EQ(read<Pixel>(made.exported("Lit"))[0], lit);
+        const Pixel inverse{static_cast<std::uint8_t>(255 - lit[0]), static_cast<std::uint8_t>(255 - lit[1]), 255, 0};
+        const auto copied = read<Pixel>(made.exported("Copy"));
+        EXPECT_EQ(copied.front(), inverse);
+        EXPECT_EQ(copied.back(), inverse) << "the dispatch covers the whole image";
+        EXPECT_EQ(made.reports()[0].draws, 1U);
+    }
+}
+
+TEST_F(GraphTest, StandInOfADisabledPassIsUnshadowed) {
+    for (const DepthConvention depth : {DepthConvention::Reversed, DepthConvention::Conventional}) {
+        Graph made = graph();
+        HostDescription host{.extent = {4, 4, 1}, .depth = depth};
+        host.settings["lights"] = {SettingValue::Type::Uint, 0, {}};
+        mustBuild(made, shadowTree, host);
+        frame(made);
+        EXPECT_EQ(read<Pixel>(made.exported("Lit"))[0], (Pixel{255, 255, 0, 255}));
+    }
+}
+
+TEST_F(GraphTest, ImportsAreBoundAndMayChangeEachFrame) {
+    Graph made = graph();
+    HostDescription host{.extent = {4, 4, 1}};
+    host.imports["Sky"] = {true, rhi::TextureFormat::RGBA8Unorm, {1, 1, 6}, 1};
+    mustBuild(made, shadowTree, host);
+    for (const std::uint8_t red : {std::uint8_t{255}, std::uint8_t{51}}) {
+        const rhi::Texture sky = value(gpu.device.createTexture({.label = "sky",
+                                                                 .size = {1, 1, 6},
+                                                                 .usage = rhi::TextureUsage::TextureBinding | rhi::TextureUsage::CopyDst,
+                                                                 .cubeCompatible = true}));
+        std::vector<std::uint8_t> bytes;
+        for (int layer = 0; layer < 6; ++layer) bytes.insert(bytes.end(), {red, 0, 0, 255});
+        pelage::test::succeed(gpu.device.queue().writeTexture({.texture = sky}, std::as_bytes(std::span(bytes)),
+                                                              {.bytesPerRow = 4, .rowsPerImage = 1}, {1, 1, 6}));
+        frame(made, {.textures = {{"Sky", sky}}});
+        EXPECT_EQ(read<Pixel>(made.exported("Lit"))[0][2], red);
+    }
+    auto encoder = gpu.device.createCommandEncoder("without");
+    const auto lacking = made.record(encoder, {}, {});
+    ASSERT_FALSE(lacking);
+    EXPECT_NE(lacking.error().message.find("H001"), std::string::npos);
+}
+
+TEST_F(GraphTest, AFailedBuildKeepsTheOldPicture) {
+    Graph made = graph();
+    const HostDescription host{.extent = {8, 8, 1}};
+    mustBuild(made, triangleTree, host);
+    const std::pair<std::string, std::string> faults[] = {
+        {edited(triangleTree, "\"Tint.color\"", "\"Tnt.color\""), "P016"},
+        {edited(triangleTree, "tint.frag", "tin.frag"), "S001"},
+        {edited(triangleTree, "\"gain\": { \"setting\": \"gain\" }", "\"gian\": { \"setting\": \"gain\" }"), "S020"},
+        // The second slot of that bind is the one in Tint.
+        {edited(triangleTree, "\"kind\": \"fullscreen\", \"shader\": \"tint.frag\",\n      \"slots\": {\n        \"source\": { \"access\": \"read\", \"as\": \"sampled\", \"bind\": \"u_source\"",
+                "\"kind\": \"fullscreen\", \"shader\": \"tint.frag\",\n      \"slots\": {\n        \"source\": { \"access\": \"read\", \"as\": \"sampled\", \"bind\": \"u_sauce\""),
+         "S010 S011"},
+        {edited(triangleTree, "\"shader\": \"tint.frag\"", "\"shader\": \"average.frag\""), "S012"},
+    };
+    for (const auto& [text, codes] : faults) {
+        SCOPED_TRACE(codes);
+        const auto built = build(made, text, host);
+        ASSERT_FALSE(built);
+        for (std::size_t at = 0; at < codes.size(); at += 5) {
+            EXPECT_NE(built.error().text().find(codes.substr(at, 4)), std::string::npos) << built.error().text();
+        }
+        ASSERT_TRUE(made.valid());
+        frame(made);
+        EXPECT_EQ(read<Pixel>(made.exported("Picture"))[0], (Pixel{64, 128, 255, 255}));
+    }
+}
+
+TEST_F(GraphTest, RecordBeforeBuildIsAnError) {
+    Graph made = graph();
+    auto encoder = gpu.device.createCommandEncoder("frame");
+    EXPECT_FALSE(made.record(encoder, {}, {}));
+    EXPECT_FALSE(made.valid());
+    EXPECT_TRUE(made.plan().passes.empty());
+}
+
+TEST_F(GraphTest, RasterPassesGetTheirBindGroups) {
+    // A raster pass that samples: the callback asks for the group of its pipeline's layout.
+    const std::string text = edited(shadowTree, "\"kind\": \"fullscreen\", \"shader\": \"shadowed.frag\"",
+                                    "\"kind\": \"raster\", \"view\": \"lights\", \"drawList\": \"all\"");
+    const std::string cleared = edited(text, "\"color\": { \"access\": \"write\", \"as\": \"color\" }",
+                                       "\"color\": { \"access\": \"write\", \"as\": \"color\", \"load\": \"dontCare\" }");
+    Graph made = graph();
+    mustBuild(made, cleared, {.extent = {4, 4, 1}});
+    std::string missing;
+    auto encoder = gpu.device.createCommandEncoder("frame");
+    pelage::test::succeed(made.record(encoder, {}, [&](RasterContext& context) -> rhi::Result<void> {
+        if (context.pass.name != "Light") return drawTriangle(context);
+        rhi::RenderPipelineDescriptor descriptor{.label = "light", .vertex = {.module = value(shader("fullscreen.vert"))}};
+        descriptor.fragment = {.module = value(shader("shadowed.frag"))};
+        descriptor.targets.push_back({.format = context.targets.colors.at(0)});
+        const auto pipeline = value(gpu.device.createRenderPipeline(descriptor));
+        const auto group = context.bindGroup(pipeline.bindGroupLayout(1));
+        if (!group) return tl::unexpected(group.error());
+        EXPECT_EQ(*group, *context.bindGroup(pipeline.bindGroupLayout(1))) << "made once";
+        context.encoder.setPipeline(pipeline);
+        context.encoder.setBindGroup(1, *group);
+        context.encoder.draw(3);
+        // A layout that asks for what the pass has not.
+        descriptor.fragment->module = value(shader("tint.frag"));
+        const auto other = value(gpu.device.createRenderPipeline(descriptor));
+        const auto refused = context.bindGroup(other.bindGroupLayout(1));
+        if (!refused) missing = refused.error().message;
+        return {};
+    }));
+    run(encoder);
+    EXPECT_EQ(read<Pixel>(made.exported("Lit"))[0], (Pixel{255, 0, 0, 255}));
+    EXPECT_NE(missing.find("S011"), std::string::npos) << missing;
+    EXPECT_NE(missing.find("u_source"), std::string::npos) << missing;
+}
+
+TEST_F(GraphTest, FramesOfManySizesLeaveNothingBehind) {
+    gpu.device.collect();
+    const auto before = gpu.device.memoryStatistics();
+    {
+        Graph made = graph();
+        for (const std::uint32_t side : {1U, 7U, 64U, 129U}) {
+            mustBuild(made, triangleTree, {.extent = {side, side + 3, 1}});
+            frame(made);
+            EXPECT_EQ(made.exported("Picture").size(), (rhi::Extent3D{side, side + 3, 1}));
+        }
+    }
+    pelage::test::succeed(gpu.device.waitIdle());
+    gpu.device.collect();
+    EXPECT_EQ(gpu.device.memoryStatistics().liveTextures, before.liveTextures);
+    EXPECT_EQ(gpu.device.memoryStatistics().liveBuffers, before.liveBuffers);
+}
+
+}  // namespace
+}  // namespace pelage::passes::test

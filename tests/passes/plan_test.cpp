@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: MIT
+// What the linker makes of a good tree: order, versions, sizes, load and store, lifetimes, shared memory.
+#include "tree_text.hpp"
+
+#include <gtest/gtest.h>
+
+namespace pelage::passes::test {
+namespace {
+
+using Names = std::vector<std::string>;
+
+Plan plan(const std::string& text = wholeGrammar(), const HostDescription& lent = host()) {
+    const auto tree = PassTree::parse(text, "tree.pass.json");
+    EXPECT_TRUE(tree) << (tree ? "" : tree.error().text());
+    if (!tree) return {};
+    auto made = (*tree)->compile(lent);
+    EXPECT_TRUE(made) << (made ? "" : made.error().text());
+    return made ? *made : Plan{};
+}
+
+TEST(Plan, OrderFollowsFromData) {
+    EXPECT_EQ(passNames(plan()), (Names{"Shadow", "Count", "Hair", "Glass", "Resolve", "Blur", "Final", "Keep"}));
+}
+
+TEST(Plan, CulledPassesAreNamedWithTheReason) {
+    const Plan made = plan(edited(wholeGrammar(), R"("Kept":   { "from": "Keep.to" },)", ""));
+    EXPECT_EQ(made.culled, (Names{"Keep: no export needs its result", "Present: switched off, not (host.has('Screen'))"}));
+    EXPECT_EQ(resource(made, "att.Kept"), nullptr);
+}
+
+TEST(Plan, SideEffectsKeepAPass) {
+    std::string text = edited(wholeGrammar(), R"("Kept":   { "from": "Keep.to" },)", "");
+    text = edited(text, R"("name": "Keep",)", R"("name": "Keep", "sideEffects": true,)");
+    EXPECT_NE(slot(plan(text), "Keep", "to"), nullptr);
+}
+
+TEST(Plan, DisabledPassGivesItsStandIn) {
+    HostDescription lent = host();
+    lent.settings["lights"] = whole(0);
+    const Plan made = plan(wholeGrammar(), lent);
+    EXPECT_EQ(slot(made, "Shadow", "map"), nullptr);
+    EXPECT_EQ(resource(made, "att.Map"), nullptr);
+    const PlanSlot* map = slot(made, "Hair", "map");
+    ASSERT_NE(map, nullptr);
+    EXPECT_EQ(made.resources[map->resource].name, "const.depthFarArray");
+}
+
+TEST(Plan, TheFirstAlternativeThatExistsIsTaken) {
+    HostDescription lent = host();
+    EXPECT_NE(slot(plan(), "Glass", "color"), nullptr);
+    lent.settings["overlay"] = flag(false);
+    const Plan made = plan(wholeGrammar(), lent);
+    EXPECT_EQ(slot(made, "Glass", "color"), nullptr);
+    EXPECT_EQ(made.resources[slot(made, "Resolve", "source")->resource].name, "att.Hair");
+}
+
+TEST(Plan, OptionalSlotsMayStayUnconnected) {
+    EXPECT_EQ(slot(plan(), "Hair", "sky")->resource, ~0U);
+    HostDescription lent = host();
+    lent.imports["Sky"] = {true, rhi::TextureFormat::RGBA16Float, {16, 16, 6}, 1};
+    const Plan made = plan(wholeGrammar(), lent);
+    const PlanSlot* sky = slot(made, "Hair", "sky");
+    ASSERT_NE(sky->resource, ~0U);
+    EXPECT_TRUE(made.resources[sky->resource].cube);
+    EXPECT_EQ(made.resources[sky->resource].kind, PlanResource::Kind::Import);
+}
+
+TEST(Plan, SizesSamplesAndLayers) {
+    HostDescription lent = host();
+    lent.extent = {101, 33, 1};
+    lent.imports["Scene"].extent = {201, 99, 1};
+    lent.settings["size"] = whole(512);
+    lent.settings["lights"] = whole(3);
+    lent.settings["msaa"] = word("1");
+    const Plan made = plan(wholeGrammar(), lent);
+    EXPECT_EQ(resource(made, "att.Map")->extent, (rhi::Extent3D{512, 512, 3}));
+    EXPECT_EQ(resource(made, "att.Map")->layers, 3U);
+    EXPECT_EQ(resource(made, "att.Map")->bytes, 512ULL * 512 * 4 * 3);
+    EXPECT_EQ(resource(made, "att.Hair")->extent, (rhi::Extent3D{101, 33, 1}));
+    EXPECT_EQ(resource(made, "att.Hair")->samples, 1U);
+    EXPECT_EQ(resource(made, "att.Depth")->extent, (rhi::Extent3D{101, 33, 1}));
+    EXPECT_EQ(resource(made, "att.Half")->extent, (rhi::Extent3D{101, 50, 1})) << "half, rounded up";
+    EXPECT_EQ(resource(made, "att.Blur")->extent, (rhi::Extent3D{101, 50, 1}));
+    EXPECT_EQ(resource(made, "att.Table")->extent, (rhi::Extent3D{16, 8, 1}));
+    EXPECT_EQ(resource(plan(), "att.Hair")->bytes, 64ULL * 48 * 8 * 4);
+    EXPECT_EQ(made.viewCounts.at("shadow"), 3U);
+}
+
+TEST(Plan, DispatchCoversAnImage) {
+    const Plan made = plan();
+    const PlanPass& count = made.passes[1];
+    ASSERT_EQ(count.name, "Count");
+    EXPECT_EQ(count.dispatch[0], 2U);
+    EXPECT_EQ(count.dispatch[1], 2U);
+    EXPECT_EQ(count.dispatch[2], 1U);
+}
+
+TEST(Plan, ShaderAndConstantsFollowSettings) {
+    HostDescription lent = host();
+    const auto resolve = [&] {
+        const Plan made = plan(wholeGrammar(), lent);
+        for (const PlanPass& pass : made.passes) {
+            if (pass.name == "Resolve") return pass;
+        }
+        return PlanPass{};
+    };
+    EXPECT_EQ(resolve().shader, "resolve.frag");
+    EXPECT_EQ(resolve().constants, (std::map<std::string, double>{{"gain", 1.5}, {"look", 0}, {"overlay", 1}}));
+    lent.settings["msaa"] = word("1");
+    lent.settings["look"] = word("hard");
+    lent.settings["overlay"] = flag(false);
+    EXPECT_EQ(resolve().shader, "copy.frag");
+    EXPECT_EQ(resolve().constants, (std::map<std::string, double>{{"gain", 1.5}, {"look", 1}, {"overlay", 0}}));
+}
+
+TEST(Plan, FirstWriteClearsAndLastUseDiscards) {
+    const Plan made = plan();
+    EXPECT_EQ(slot(made, "Hair", "color")->load, rhi::LoadOp::Clear);
+    EXPECT_EQ(slot(made, "Hair", "color")->store, rhi::StoreOp::Store);
+    EXPECT_EQ(slot(made, "Glass", "color")->load, rhi::LoadOp::Load);
+    EXPECT_EQ(slot(made, "Resolve", "color")->load, rhi::LoadOp::DontCare) << "a fullscreen pass covers its target";
+    EXPECT_EQ(slot(made, "Hair", "depth")->store, rhi::StoreOp::Store) << "Glass tests against it";
+    HostDescription lent = host();
+    lent.settings["overlay"] = flag(false);
+    EXPECT_EQ(slot(plan(wholeGrammar(), lent), "Hair", "depth")->store, rhi::StoreOp::Discard);
+}
+
+TEST(Plan, FarFollowsTheDepthConvention) {
+    HostDescription lent = host();
+    EXPECT_EQ(slot(plan(wholeGrammar(), lent), "Hair", "depth")->clearDepth, 0.0F);
+    lent.depth = DepthConvention::Conventional;
+    EXPECT_EQ(slot(plan(wholeGrammar(), lent), "Hair", "depth")->clearDepth, 1.0F);
+    const std::string text = edited(wholeGrammar(), R"("as": "depth", "clear": { "depth": "far" } },
+        "color")", R"("as": "depth", "clear": { "depth": "near" } },
+        "color")");
+    EXPECT_EQ(slot(plan(text, lent), "Hair", "depth")->clearDepth, 0.0F);
+}
+
+TEST(Plan, LifetimesAndUsage) {
+    const Plan made = plan();
+    const PlanResource* map = resource(made, "att.Map");
+    EXPECT_EQ(map->firstPass, 0U);
+    EXPECT_EQ(map->lastPass, 2U);
+    EXPECT_EQ(map->usage, rhi::TextureUsage::RenderAttachment | rhi::TextureUsage::TextureBinding);
+    EXPECT_EQ(resource(made, "att.Final")->lastPass, 7U) << "exported: read after the frame";
+    EXPECT_TRUE(contains(resource(made, "att.Final")->usage, rhi::TextureUsage::CopySrc));
+    EXPECT_EQ(resource(made, "att.Table")->usage, rhi::TextureUsage::StorageBinding | rhi::TextureUsage::TextureBinding);
+}
+
+TEST(Plan, ImagesOfOneShapeShareATextureWhenTheirLivesDoNotOverlap) {
+    // A chain of equal images: 1 -> 2 -> 3 -> 4; the third may lie where the first was.
+    std::string attachments, passes, before = "host.In";
+    for (int i = 0; i < 4; ++i) {
+        const std::string n = std::to_string(i);
+        attachments += (i ? "," : "") + std::string("\"A") + n + R"(": { "format": "RGBA16Float", "size": { "frame": 1 } })";
+        passes += (i ? "," : "") + std::string(R"({ "name": "P)") + n + R"(", "kind": "fullscreen", "shader": "x.frag", "slots": {
+            "in": { "access": "read", "as": "sampled", "bind": "u_in" }, "out": { "access": "write", "as": "color" } },
+            "connect": { "in": ")" + before + R"(", "out": "att.A)" + n + "\" } }";
+        before = "P" + n + ".out";
+    }
+    const std::string text = R"({ "format": "pelage.passtree/1", "name": "Chain", "imports": { "In": { "kind": "image", "access": "read" } },
+        "attachments": {)" + attachments + R"(}, "passes": [)" + passes + R"(], "exports": { "Out": { "from": "P3.out" } } })";
+    HostDescription lent{.extent = {16, 16, 1}};
+    lent.imports["In"] = {true, rhi::TextureFormat::RGBA16Float, {16, 16, 1}, 1};
+    const Plan made = plan(text, lent);
+    EXPECT_EQ(resource(made, "att.A0")->allocation, resource(made, "att.A2")->allocation);
+    EXPECT_NE(resource(made, "att.A0")->allocation, resource(made, "att.A1")->allocation);
+    EXPECT_NE(resource(made, "att.A3")->allocation, resource(made, "att.A1")->allocation) << "an export has its own";
+    EXPECT_EQ(made.allocations, 3U);
+    EXPECT_EQ(made.allocatedBytes, 3ULL * 16 * 16 * 8);
+}
+
+TEST(Plan, ReaderOfAnOldVersionRunsBeforeTheChange) {
+    std::string text = edited(wholeGrammar(), R"(["Glass.color", "Hair.color"])", R"("Hair.color")");
+    text = edited(text, R"("exports": {)", R"("exports": { "Glass": { "from": "Glass.color", "optional": true },)");
+    const Plan made = plan(text);
+    const Names names = passNames(made);
+    const auto at = [&](const char* name) { return std::find(names.begin(), names.end(), name) - names.begin(); };
+    EXPECT_LT(at("Resolve"), at("Glass"));
+    EXPECT_EQ(codes(made.warnings), "P033");
+}
+
+TEST(Plan, FormatFallsBackWhenTheDeviceLacksIt) {
+    HostDescription lent = host();
+    lent.supports = [](rhi::TextureFormat format, rhi::TextureUsage, std::uint32_t samples) {
+        return format != rhi::TextureFormat::RGBA16Float || samples == 1;
+    };
+    EXPECT_EQ(resource(plan(wholeGrammar(), lent), "att.Hair")->format, rhi::TextureFormat::RGBA32Float);
+}
+
+TEST(Plan, ReadWriteWithClearBeginsAnAttachment) {
+    const std::string text = edited(wholeGrammar(), R"("color": { "access": "readWrite", "as": "color" } },
+      "connect": { "depth": "Hair.depth", "color": "Hair.color" })", R"("color": { "access": "readWrite", "as": "color", "clear": [1, 0, 0, 1] } },
+      "connect": { "depth": "Hair.depth", "color": ["Missing.color", "att.Spare"] })");
+    const Plan made = plan(edited(text, R"("attachments": {)", R"("attachments": { "Spare": { "format": "RGBA16Float", "size": { "like": "att.Hair" }, "samples": 4 },)"));
+    const PlanSlot* color = slot(made, "Glass", "color");
+    ASSERT_NE(color, nullptr);
+    EXPECT_EQ(made.resources[color->resource].name, "att.Spare");
+    EXPECT_EQ(color->load, rhi::LoadOp::Clear);
+    EXPECT_EQ(color->clear, (rhi::Color{1, 0, 0, 1}));
+}
+
+TEST(Plan, DotNamesEveryPassAndImage) {
+    const Plan made = plan();
+    const std::string dot = made.dot();
+    for (const PlanPass& pass : made.passes) EXPECT_NE(dot.find(pass.name), std::string::npos) << dot;
+    for (const PlanResource& image : made.resources) EXPECT_NE(dot.find(image.name), std::string::npos) << dot;
+    EXPECT_NE(dot.find("Present: switched off"), std::string::npos) << dot;
+    EXPECT_EQ(std::count(dot.begin(), dot.end(), '{'), std::count(dot.begin(), dot.end(), '}'));
+}
+
+}  // namespace
+}  // namespace pelage::passes::test
