@@ -11,14 +11,14 @@
 layout(constant_id = 0) const int displayTransform = DISPLAY_ACES;
 
 layout(set = 1, binding = 0) uniform texture2D u_source;
-layout(set = 1, binding = 1, std140) uniform u_display {
+layout(set = 1, binding = 1, std140) uniform Display {
     vec4 background;  // rgb: scene-linear; w: exposure
-} display;
+} u_display;
 layout(location = 0) out vec4 o_color;
 
 void main() {
     vec4 source = texelFetch(u_source, ivec2(gl_FragCoord.xy), 0);
-    vec3 linear = (source.rgb + display.background.rgb * (1.0 - source.a)) * display.background.w;
+    vec3 linear = (source.rgb + u_display.background.rgb * (1.0 - source.a)) * u_display.background.w;
     vec4 encoded = displayTransform == DISPLAY_ACES ? displayAces(vec4(linear, 1.0)) : displayPlain(vec4(linear, 1.0));
     o_color = vec4(clamp(encoded.rgb, 0.0, 1.0), 1.0);
 }

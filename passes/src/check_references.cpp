@@ -15,10 +15,10 @@ public:
     void run() {
         for (const PassDeclaration& pass : tree_.passes) {
             for (const SlotDeclaration& slot : pass.slots) {
-                const std::size_t before = reporter_.count();
+                const std::size_t before = reporter_.errors();
                 for (std::size_t i = 0; i < slot.connect.size(); ++i) connection(pass, slot, i);
                 standIn(pass, slot);
-                if (reporter_.count() == before) alwaysFed(pass, slot);
+                if (reporter_.errors() == before) alwaysFed(pass, slot);
             }
         }
         for (const ExportDeclaration& each : tree_.exports) exported(each);
@@ -54,6 +54,15 @@ private:
         return slot;
     }
 
+    // What is taken when the reference at `index` names nothing: the next that may exist, or one before it.
+    const Reference* otherThan(const std::vector<Reference>& all, std::size_t index, SlotAccess access) const {
+        for (std::size_t step = 1; step < all.size(); ++step) {
+            const Reference& other = all[(index + step) % all.size()];
+            if (feed(other, access) != Feed::Never) return &other;
+        }
+        return nullptr;
+    }
+
     static std::string producerHint(const SlotDeclaration& slot) {
         return slot.connect.empty() ? std::string{} : "did you mean '" + slot.connect.front().text() + "'?";
     }
@@ -73,9 +82,9 @@ private:
                                     "connect it to att.* or host.*, or give it access readWrite");
                     return;
                 }
-                const bool more = index + 1 < slot.connect.size();
-                result(reference, more || slot.optional,
-                       more ? "'" + slot.connect[index + 1].text() + "' is taken instead" : title + " stays unconnected");
+                const Reference* other = otherThan(slot.connect, index, slot.access);
+                result(reference, other || slot.optional,
+                       other ? "'" + other->text() + "' is taken instead" : title + " stays unconnected");
                 return;
             }
             case Root::Host: return imported(pass, slot, reference, title);
@@ -203,11 +212,12 @@ private:
                 faulty = true;
                 continue;
             }
-            const bool more = i + 1 < each.from.size();
-            const SlotDeclaration* slot = result(reference, more || each.optional,
-                                                 more ? "'" + each.from[i + 1].text() + "' is exported instead"
-                                                      : "export '" + each.name + "' stays empty");
-            if (!slot) faulty = true;
+            const Reference* other = otherThan(each.from, i, SlotAccess::ReadWrite);
+            const std::size_t before = reporter_.errors();
+            const SlotDeclaration* slot = result(reference, other || each.optional,
+                                                 other ? "'" + other->text() + "' is exported instead"
+                                                       : "export '" + each.name + "' stays empty");
+            if (reporter_.errors() != before) faulty = true;
             if (slot && feed(reference, SlotAccess::ReadWrite) == Feed::Always) fed = true;
         }
         if (fed || faulty || each.optional || each.from.empty()) return;

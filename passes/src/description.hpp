@@ -22,7 +22,11 @@ public:
         out_.add({Severity::Warning, std::string(code), file_, place.line, place.column, std::move(text), std::move(hint)});
     }
     bool failed() const { return out_.hasErrors(); }
-    std::size_t count() const { return out_.items().size(); }
+    std::size_t errors() const {
+        std::size_t count = 0;
+        for (const Diagnostic& each : out_.items()) count += each.severity == Severity::Error ? 1 : 0;
+        return count;
+    }
 
 private:
     std::string file_;

@@ -262,6 +262,8 @@ std::shared_ptr<PassTree::Description> readDescription(const json::Document& doc
         description->settings.push_back(SettingReader(member, reporter).read());
         description->settingInfos.push_back(description->settings.back().info);
     });
+    // Conditions would be judged by settings that are not understood.
+    if (reporter.failed()) return description;
     forEachMember(root, "imports", [&](const Member& member) { description->imports.push_back(readImport(member)); });
     forEachMember(root, "views", [&](const Member& member) {
         ViewDeclaration view{.name = member.key, .count = {}, .place = member.place};

@@ -11,11 +11,16 @@ namespace {
 
 AdapterType typeOf(VkPhysicalDeviceType type) {
     switch (type) {
-        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU: return AdapterType::DiscreteGPU;
-        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU: return AdapterType::IntegratedGPU;
-        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU: return AdapterType::VirtualGPU;
-        case VK_PHYSICAL_DEVICE_TYPE_CPU: return AdapterType::CPU;
-        default: return AdapterType::Unknown;
+        case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+            return AdapterType::DiscreteGPU;
+        case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+            return AdapterType::IntegratedGPU;
+        case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+            return AdapterType::VirtualGPU;
+        case VK_PHYSICAL_DEVICE_TYPE_CPU:
+            return AdapterType::CPU;
+        default:
+            return AdapterType::Unknown;
     }
 }
 
@@ -28,7 +33,8 @@ Limits limitsOf(const VkPhysicalDeviceLimits& l, std::uint64_t maxBufferSize, bo
     limits.maxPushConstantsSize = l.maxPushConstantsSize;
     limits.minUniformBufferOffsetAlignment = static_cast<std::uint32_t>(l.minUniformBufferOffsetAlignment);
     limits.minStorageBufferOffsetAlignment = static_cast<std::uint32_t>(l.minStorageBufferOffsetAlignment);
-    limits.maxComputeWorkgroupsPerDimension = *std::min_element(l.maxComputeWorkGroupCount, l.maxComputeWorkGroupCount + 3);
+    limits.maxComputeWorkgroupsPerDimension =
+        *std::min_element(l.maxComputeWorkGroupCount, l.maxComputeWorkGroupCount + 3);
     limits.maxUniformBufferBindingSize = l.maxUniformBufferRange;
     limits.maxStorageBufferBindingSize = l.maxStorageBufferRange;
     limits.maxBufferSize = maxBufferSize;
@@ -54,7 +60,8 @@ std::shared_ptr<AdapterObject> inspectAdapter(std::shared_ptr<InstanceObject> in
     std::vector<VkExtensionProperties> extensions(count);
     vk.vkEnumerateDeviceExtensionProperties(device, nullptr, &count, extensions.data());
     const auto has = [&](std::string_view word) {
-        return std::any_of(extensions.begin(), extensions.end(), [&](const auto& e) { return word == e.extensionName; });
+        return std::any_of(extensions.begin(), extensions.end(),
+                           [&](const auto& e) { return word == e.extensionName; });
     };
 
     VkPhysicalDeviceLineRasterizationFeaturesEXT lines = {
@@ -88,9 +95,9 @@ std::shared_ptr<AdapterObject> inspectAdapter(std::shared_ptr<InstanceObject> in
     vk.vkGetPhysicalDeviceMemoryProperties(device, &adapter->memory);
     auto& info = adapter->info;
     info.name = p.properties.deviceName;
-    info.driver = cat(p12.driverName, ' ', p12.driverInfo, " (Vulkan ", VK_API_VERSION_MAJOR(p.properties.apiVersion),
-                      '.', VK_API_VERSION_MINOR(p.properties.apiVersion), '.',
-                      VK_API_VERSION_PATCH(p.properties.apiVersion), ')');
+    info.driver =
+        cat(p12.driverName, ' ', p12.driverInfo, " (Vulkan ", VK_API_VERSION_MAJOR(p.properties.apiVersion), '.',
+            VK_API_VERSION_MINOR(p.properties.apiVersion), '.', VK_API_VERSION_PATCH(p.properties.apiVersion), ')');
     info.type = typeOf(p.properties.deviceType);
     info.vendorId = p.properties.vendorID;
     info.deviceId = p.properties.deviceID;
@@ -114,11 +121,16 @@ namespace {
 int rank(AdapterType type, PowerPreference preference) {
     const bool low = preference == PowerPreference::LowPower;
     switch (type) {
-        case AdapterType::DiscreteGPU: return low ? 3 : 4;
-        case AdapterType::IntegratedGPU: return low ? 4 : 3;
-        case AdapterType::VirtualGPU: return 2;
-        case AdapterType::CPU: return 0;
-        case AdapterType::Unknown: break;
+        case AdapterType::DiscreteGPU:
+            return low ? 3 : 4;
+        case AdapterType::IntegratedGPU:
+            return low ? 4 : 3;
+        case AdapterType::VirtualGPU:
+            return 2;
+        case AdapterType::CPU:
+            return 0;
+        case AdapterType::Unknown:
+            break;
     }
     return 1;
 }
@@ -155,12 +167,14 @@ Result<Adapter> Instance::requestAdapter(const AdapterOptions& options) const {
                         seen.empty() ? std::string("there is none at all") : "there are " + seen, '.'));
     }
     if (best.info().type == AdapterType::CPU)
-        object_->message(LogLevel::Info, "adapter",
-                         cat("no GPU found: using the CPU device \"", best.info().name,
-                             "\"; pictures are right, times are not"));
+        object_->message(
+            LogLevel::Info, "adapter",
+            cat("no GPU found: using the CPU device \"", best.info().name, "\"; pictures are right, times are not"));
     return best;
 }
 
-const AdapterInfo& Adapter::info() const { return object_->info; }
+const AdapterInfo& Adapter::info() const {
+    return object_->info;
+}
 
 }  // namespace pelage::rhi

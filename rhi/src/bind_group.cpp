@@ -70,26 +70,25 @@ Result<void> Writer::buffer(const BindGroupLayoutEntry& e, const BufferBinding& 
                        cat(group.describe(), " binds ", object.describe(), " at offset ", b.offset, " to binding ",
                            e.binding, " \"", e.name, "\"; a multiple of ", alignment, " is needed."));
     if (b.offset >= total || b.size > total - b.offset)
-        return invalid(ErrorCode::OutOfRange,
-                       cat(group.describe(), " binds the range ", b.offset, " … ", b.offset + b.size, " of ",
-                           object.describe(), " to binding ", e.binding, " \"", e.name, "\"; the buffer has ", total,
-                           " bytes."));
+        return invalid(ErrorCode::OutOfRange, cat(group.describe(), " binds the range ", b.offset, " … ",
+                                                  b.offset + b.size, " of ", object.describe(), " to binding ",
+                                                  e.binding, " \"", e.name, "\"; the buffer has ", total, " bytes."));
     const std::uint64_t size = b.size != 0 ? b.size : total - b.offset;
     if (size < e.minBindingSize)
         return invalid(ErrorCode::OutOfRange,
-                       cat(group.describe(), " binds ", size, " bytes of ", object.describe(), " to binding ", e.binding,
-                           " \"", e.name, "\"; the shader needs ", e.minBindingSize, '.'));
+                       cat(group.describe(), " binds ", size, " bytes of ", object.describe(), " to binding ",
+                           e.binding, " \"", e.name, "\"; the shader needs ", e.minBindingSize, '.'));
     const std::uint64_t limit = uniform ? limits.maxUniformBufferBindingSize : limits.maxStorageBufferBindingSize;
     if (size > limit)
         return invalid(ErrorCode::OutOfRange,
-                       cat(group.describe(), " binds ", size, " bytes of ", object.describe(), " to binding ", e.binding,
-                           " \"", e.name, "\"; the device allows ", limit, '.'));
+                       cat(group.describe(), " binds ", size, " bytes of ", object.describe(), " to binding ",
+                           e.binding, " \"", e.name, "\"; the device allows ", limit, '.'));
     bound = {b.offset, size, total};
     buffers.push_back({object.handle, b.offset, size});
     write(e, &buffers.back(), nullptr);
-    const auto kind = uniform                                          ? UseKind::UniformBuffer
+    const auto kind = uniform                                        ? UseKind::UniformBuffer
                       : e.type == BindingType::ReadOnlyStorageBuffer ? UseKind::StorageBufferRead
-                                                                       : UseKind::StorageBufferWrite;
+                                                                     : UseKind::StorageBufferWrite;
     use(e, b.buffer.get(), false, kind, {}, false);
     group.resources.push_back(b.buffer.shared());
     return {};
@@ -111,17 +110,17 @@ Result<void> Writer::texture(const BindGroupLayoutEntry& e, const TextureView& h
     const bool multisampled = e.type == BindingType::MultisampledTexture;
     if (multisampled != (t.sampleCount > 1) && !storage)
         return invalid(ErrorCode::SampleCount,
-                       cat(view.texture->describe(), " has ", t.sampleCount, t.sampleCount == 1 ? " sample" : " samples",
-                           "; binding ", e.binding, " \"", e.name, "\" of ", group.describe(), " needs ",
-                           multisampled ? "more than 1." : "1."));
+                       cat(view.texture->describe(), " has ", t.sampleCount,
+                           t.sampleCount == 1 ? " sample" : " samples", "; binding ", e.binding, " \"", e.name,
+                           "\" of ", group.describe(), " needs ", multisampled ? "more than 1." : "1."));
     if (storage && view.range.mips != 1)
-        return invalid(ErrorCode::BindingMismatch, cat(view.describe(), " has ", view.range.mips,
-                                                       " mip levels; the storage texture of binding ", e.binding, " \"",
-                                                       e.name, "\" of ", group.describe(), " needs a view of 1."));
+        return invalid(ErrorCode::BindingMismatch,
+                       cat(view.describe(), " has ", view.range.mips, " mip levels; the storage texture of binding ",
+                           e.binding, " \"", e.name, "\" of ", group.describe(), " needs a view of 1."));
     const bool depth = isDepth(t.format);
-    const auto kind = !storage                                           ? UseKind::Sampled
+    const auto kind = !storage                                        ? UseKind::Sampled
                       : e.type == BindingType::ReadOnlyStorageTexture ? UseKind::StorageTextureRead
-                                                                         : UseKind::StorageTextureWrite;
+                                                                      : UseKind::StorageTextureWrite;
     images.push_back({VK_NULL_HANDLE, view.handle, accessOf(kind, 0, depth).layout});
     write(e, nullptr, &images.back());
     use(e, view.texture.get(), true, kind, view.range, depth);
@@ -155,8 +154,9 @@ Result<BindGroup> makeBindGroup(const std::shared_ptr<DeviceObject>& device, con
     const auto& entries = object->layout->entries;
     for (const auto& given : d.entries)
         if (object->layout->find(given.binding) == nullptr)
-            return invalid(ErrorCode::BindingMismatch, cat(object->describe(), " has an entry for binding ", given.binding,
-                                                           ", which ", object->layout->describe(), " does not have."));
+            return invalid(ErrorCode::BindingMismatch,
+                           cat(object->describe(), " has an entry for binding ", given.binding, ", which ",
+                               object->layout->describe(), " does not have."));
     // Checked in full before a set is taken, so that nothing has to be undone.
     std::vector<const BindGroupEntry*> chosen;
     for (const auto& e : entries) {
@@ -164,8 +164,8 @@ Result<BindGroup> makeBindGroup(const std::shared_ptr<DeviceObject>& device, con
         for (const auto& given : d.entries) {
             if (given.binding != e.binding) continue;
             if (found != nullptr)
-                return invalid(ErrorCode::BindingMismatch,
-                               cat(object->describe(), " has two entries for binding ", e.binding, " \"", e.name, "\"."));
+                return invalid(ErrorCode::BindingMismatch, cat(object->describe(), " has two entries for binding ",
+                                                               e.binding, " \"", e.name, "\"."));
             found = &given;
         }
         if (found == nullptr)
@@ -173,9 +173,9 @@ Result<BindGroup> makeBindGroup(const std::shared_ptr<DeviceObject>& device, con
                                                            " \"", e.name, "\" (", name(e.type), ")."));
         const std::size_t wanted = isBuffer(e.type) ? 0 : isSampler(e.type) ? 2 : 1;
         if (found->resource.index() != wanted)
-            return invalid(ErrorCode::BindingMismatch, cat(object->describe(), " gives ", resourceName(*found),
-                                                           " to binding ", e.binding, " \"", e.name, "\", which is a ",
-                                                           name(e.type), '.'));
+            return invalid(ErrorCode::BindingMismatch,
+                           cat(object->describe(), " gives ", resourceName(*found), " to binding ", e.binding, " \"",
+                               e.name, "\", which is a ", name(e.type), '.'));
         const bool empty = std::visit(
             [](const auto& r) {
                 if constexpr (requires { r.buffer; })
@@ -220,7 +220,11 @@ Result<BindGroup> Device::createBindGroup(const BindGroupDescriptor& descriptor)
     if (auto ok = detail::needHandle(*this, "the device"); !ok) return detail::forward(ok.error());
     return object_->reported(detail::makeBindGroup(object_, descriptor));
 }
-const std::string& BindGroup::label() const { return object_->label; }
-BindGroupLayout BindGroup::layout() const { return BindGroupLayout(object_->layout); }
+const std::string& BindGroup::label() const {
+    return object_->label;
+}
+BindGroupLayout BindGroup::layout() const {
+    return BindGroupLayout(object_->layout);
+}
 
 }  // namespace pelage::rhi

@@ -16,8 +16,9 @@ BindGroupLayoutObject::~BindGroupLayoutObject() {
 
 PipelineLayoutObject::~PipelineLayoutObject() {
     if (handle == VK_NULL_HANDLE) return;
-    device->bury(lastUse,
-                 [layout = handle](DeviceObject& d) { d.functions.vkDestroyPipelineLayout(d.handle, layout, nullptr); });
+    device->bury(lastUse, [layout = handle](DeviceObject& d) {
+        d.functions.vkDestroyPipelineLayout(d.handle, layout, nullptr);
+    });
 }
 
 const BindGroupLayoutEntry* BindGroupLayoutObject::find(std::uint32_t binding) const {
@@ -46,8 +47,9 @@ Result<std::shared_ptr<BindGroupLayoutObject>> makeBindGroupLayout(const std::sh
     for (std::size_t i = 0; i < entries.size(); ++i) {
         const auto& e = entries[i];
         if (i > 0 && entries[i - 1].binding == e.binding)
-            return invalid(ErrorCode::BindingMismatch, cat(object->describe(), " has two entries for binding ", e.binding,
-                                                           ": \"", entries[i - 1].name, "\" and \"", e.name, "\"."));
+            return invalid(ErrorCode::BindingMismatch,
+                           cat(object->describe(), " has two entries for binding ", e.binding, ": \"",
+                               entries[i - 1].name, "\" and \"", e.name, "\"."));
         if (!any(e.visibility))
             return invalid(ErrorCode::BindingMismatch,
                            cat(object->describe(), " entry \"", e.name, "\" is visible to no shader stage."));
@@ -90,8 +92,8 @@ Result<std::shared_ptr<PipelineLayoutObject>> makePipelineLayout(
     pushConstantsSize = (pushConstantsSize + 3) & ~3U;
     if (pushConstantsSize > limits.maxPushConstantsSize)
         return invalid(ErrorCode::PushConstantRange,
-                       cat(object->describe(), " has ", pushConstantsSize, " bytes of push constants; the device allows ",
-                           limits.maxPushConstantsSize, '.'));
+                       cat(object->describe(), " has ", pushConstantsSize,
+                           " bytes of push constants; the device allows ", limits.maxPushConstantsSize, '.'));
     while (!sets.empty() && !sets.back()) sets.pop_back();
     std::string key = cat(pushConstantsSize, ':');
     std::vector<VkDescriptorSetLayout> handles;
@@ -129,9 +131,8 @@ Result<std::shared_ptr<PipelineLayoutObject>> makePipelineLayout(
 
 Result<BindGroupLayout> Device::createBindGroupLayout(const BindGroupLayoutDescriptor& descriptor) const {
     if (auto ok = detail::needHandle(*this, "the device"); !ok) return detail::forward(ok.error());
-    return object_->reported(detail::makeBindGroupLayout(object_, descriptor).map([](auto o) {
-        return BindGroupLayout(std::move(o));
-    }));
+    return object_->reported(
+        detail::makeBindGroupLayout(object_, descriptor).map([](auto o) { return BindGroupLayout(std::move(o)); }));
 }
 
 Result<PipelineLayout> Device::createPipelineLayout(const PipelineLayoutDescriptor& descriptor) const {
@@ -143,7 +144,9 @@ Result<PipelineLayout> Device::createPipelineLayout(const PipelineLayoutDescript
             .map([](auto o) { return PipelineLayout(std::move(o)); }));
 }
 
-const std::vector<BindGroupLayoutEntry>& BindGroupLayout::entries() const { return object_->entries; }
+const std::vector<BindGroupLayoutEntry>& BindGroupLayout::entries() const {
+    return object_->entries;
+}
 const BindGroupLayoutEntry* BindGroupLayout::find(std::string_view word) const {
     if (!object_) return nullptr;
     for (const auto& e : object_->entries)

@@ -21,8 +21,9 @@ Result<Buffer> makeBuffer(const std::shared_ptr<DeviceObject>& device, const Buf
     if (descriptor.size == 0)
         return invalid(ErrorCode::InvalidSize, cat(object->describe(), " has size 0; a buffer holds at least 1 byte."));
     if (descriptor.size > limits.maxBufferSize)
-        return invalid(ErrorCode::InvalidSize, cat(object->describe(), " has size ", descriptor.size,
-                                                   ", which is above the device's limit of ", limits.maxBufferSize, '.'));
+        return invalid(ErrorCode::InvalidSize,
+                       cat(object->describe(), " has size ", descriptor.size, ", which is above the device's limit of ",
+                           limits.maxBufferSize, '.'));
     if (descriptor.usage == BufferUsage::None)
         return invalid(ErrorCode::InvalidUsage, cat(object->describe(), " has no usage; at least one is needed."));
     const bool read = contains(descriptor.usage, BufferUsage::MapRead);
@@ -71,9 +72,15 @@ Result<Buffer> Device::createBuffer(const BufferDescriptor& descriptor) const {
     return object_->reported(detail::makeBuffer(object_, descriptor));
 }
 
-const std::string& Buffer::label() const { return object_->label; }
-std::uint64_t Buffer::size() const { return object_->descriptor.size; }
-BufferUsage Buffer::usage() const { return object_->descriptor.usage; }
+const std::string& Buffer::label() const {
+    return object_->label;
+}
+std::uint64_t Buffer::size() const {
+    return object_->descriptor.size;
+}
+BufferUsage Buffer::usage() const {
+    return object_->descriptor.usage;
+}
 std::span<std::byte> Buffer::mapped() const {
     if (!object_ || !any(object_->descriptor.usage & (BufferUsage::MapRead | BufferUsage::MapWrite))) return {};
     return {object_->allocation.mapped, object_->descriptor.size};

@@ -36,7 +36,9 @@ Result<ComputePipeline> Device::createComputePipeline(const ComputePipelineDescr
     if (auto ok = detail::needHandle(*this, "the device"); !ok) return detail::forward(ok.error());
     return object_->reported(detail::makeComputePipeline(object_, descriptor));
 }
-const std::string& ComputePipeline::label() const { return object_->label; }
+const std::string& ComputePipeline::label() const {
+    return object_->label;
+}
 BindGroupLayout ComputePipeline::bindGroupLayout(std::uint32_t group) const {
     if (!object_ || group >= object_->layout->sets.size()) return {};
     const auto& set = object_->layout->sets[group];

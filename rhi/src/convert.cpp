@@ -34,7 +34,9 @@ constexpr FormatInfo formats[] = {
 };
 }  // namespace
 
-const FormatInfo& formatInfo(TextureFormat format) { return formats[static_cast<std::size_t>(format)]; }
+const FormatInfo& formatInfo(TextureFormat format) {
+    return formats[static_cast<std::size_t>(format)];
+}
 
 TextureFormat fromVk(VkFormat format) {
     for (const auto& f : formats)
@@ -48,7 +50,9 @@ VkImageAspectFlags aspectsOf(TextureFormat format) {
     return isDepth(format) ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
 }
 
-VkFormat toVk(TextureFormat format) { return formatInfo(format).vk; }
+VkFormat toVk(TextureFormat format) {
+    return formatInfo(format).vk;
+}
 
 namespace {
 struct VertexFormatInfo {
@@ -72,13 +76,23 @@ constexpr VertexFormatInfo vertexFormats[] = {
     {"Sint32x3", VK_FORMAT_R32G32B32_SINT, 12, NumericClass::Sint},
     {"Sint32x4", VK_FORMAT_R32G32B32A32_SINT, 16, NumericClass::Sint},
 };
-const VertexFormatInfo& info(VertexFormat format) { return vertexFormats[static_cast<std::size_t>(format)]; }
+const VertexFormatInfo& info(VertexFormat format) {
+    return vertexFormats[static_cast<std::size_t>(format)];
+}
 }  // namespace
 
-VkFormat toVk(VertexFormat format) { return info(format).vk; }
-std::uint32_t vertexFormatBytes(VertexFormat format) { return info(format).bytes; }
-NumericClass numericClass(VertexFormat format) { return info(format).numeric; }
-std::string_view name(VertexFormat format) { return info(format).name; }
+VkFormat toVk(VertexFormat format) {
+    return info(format).vk;
+}
+std::uint32_t vertexFormatBytes(VertexFormat format) {
+    return info(format).bytes;
+}
+NumericClass numericClass(VertexFormat format) {
+    return info(format).numeric;
+}
+std::string_view name(VertexFormat format) {
+    return info(format).name;
+}
 
 VkBufferUsageFlags toVk(BufferUsage usage) {
     VkBufferUsageFlags flags = 0;
@@ -119,11 +133,14 @@ VkSamplerAddressMode toVk(AddressMode mode) {
         VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER, VK_SAMPLER_ADDRESS_MODE_CLAMP_TO_BORDER};
     return modes[static_cast<std::size_t>(mode)];
 }
-VkFilter toVk(FilterMode mode) { return mode == FilterMode::Linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST; }
+VkFilter toVk(FilterMode mode) {
+    return mode == FilterMode::Linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
+}
 VkCompareOp toVk(CompareFunction function) {
-    constexpr VkCompareOp ops[] = {VK_COMPARE_OP_ALWAYS, VK_COMPARE_OP_NEVER, VK_COMPARE_OP_LESS,
-                                   VK_COMPARE_OP_EQUAL, VK_COMPARE_OP_LESS_OR_EQUAL, VK_COMPARE_OP_GREATER,
-                                   VK_COMPARE_OP_NOT_EQUAL, VK_COMPARE_OP_GREATER_OR_EQUAL, VK_COMPARE_OP_ALWAYS};
+    constexpr VkCompareOp ops[] = {
+        VK_COMPARE_OP_ALWAYS,        VK_COMPARE_OP_NEVER,   VK_COMPARE_OP_LESS,      VK_COMPARE_OP_EQUAL,
+        VK_COMPARE_OP_LESS_OR_EQUAL, VK_COMPARE_OP_GREATER, VK_COMPARE_OP_NOT_EQUAL, VK_COMPARE_OP_GREATER_OR_EQUAL,
+        VK_COMPARE_OP_ALWAYS};
     return ops[static_cast<std::size_t>(function)];
 }
 VkShaderStageFlags toVk(ShaderStage stages) {
@@ -148,16 +165,19 @@ VkDescriptorType toVk(BindingType type, bool dynamic) {
         case BindingType::ReadOnlyStorageBuffer:
             return dynamic ? VK_DESCRIPTOR_TYPE_STORAGE_BUFFER_DYNAMIC : VK_DESCRIPTOR_TYPE_STORAGE_BUFFER;
         case BindingType::Sampler:
-        case BindingType::ComparisonSampler: return VK_DESCRIPTOR_TYPE_SAMPLER;
+        case BindingType::ComparisonSampler:
+            return VK_DESCRIPTOR_TYPE_SAMPLER;
         case BindingType::StorageTexture:
-        case BindingType::ReadOnlyStorageTexture: return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
-        default: return VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
+        case BindingType::ReadOnlyStorageTexture:
+            return VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
+        default:
+            return VK_DESCRIPTOR_TYPE_SAMPLED_IMAGE;
     }
 }
 VkPrimitiveTopology toVk(PrimitiveTopology topology) {
-    constexpr VkPrimitiveTopology topologies[] = {
-        VK_PRIMITIVE_TOPOLOGY_POINT_LIST, VK_PRIMITIVE_TOPOLOGY_LINE_LIST, VK_PRIMITIVE_TOPOLOGY_LINE_STRIP,
-        VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST, VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP};
+    constexpr VkPrimitiveTopology topologies[] = {VK_PRIMITIVE_TOPOLOGY_POINT_LIST, VK_PRIMITIVE_TOPOLOGY_LINE_LIST,
+                                                  VK_PRIMITIVE_TOPOLOGY_LINE_STRIP, VK_PRIMITIVE_TOPOLOGY_TRIANGLE_LIST,
+                                                  VK_PRIMITIVE_TOPOLOGY_TRIANGLE_STRIP};
     return topologies[static_cast<std::size_t>(topology)];
 }
 VkCullModeFlags toVk(CullMode mode) {
@@ -165,10 +185,11 @@ VkCullModeFlags toVk(CullMode mode) {
     return modes[static_cast<std::size_t>(mode)];
 }
 VkBlendFactor toVk(BlendFactor factor) {
-    constexpr VkBlendFactor factors[] = {
-        VK_BLEND_FACTOR_ZERO, VK_BLEND_FACTOR_ONE, VK_BLEND_FACTOR_SRC_COLOR, VK_BLEND_FACTOR_ONE_MINUS_SRC_COLOR,
-        VK_BLEND_FACTOR_SRC_ALPHA, VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA, VK_BLEND_FACTOR_DST_COLOR,
-        VK_BLEND_FACTOR_ONE_MINUS_DST_COLOR, VK_BLEND_FACTOR_DST_ALPHA, VK_BLEND_FACTOR_ONE_MINUS_DST_ALPHA};
+    constexpr VkBlendFactor factors[] = {VK_BLEND_FACTOR_ZERO,      VK_BLEND_FACTOR_ONE,
+                                         VK_BLEND_FACTOR_SRC_COLOR, VK_BLEND_FACTOR_ONE_MINUS_SRC_COLOR,
+                                         VK_BLEND_FACTOR_SRC_ALPHA, VK_BLEND_FACTOR_ONE_MINUS_SRC_ALPHA,
+                                         VK_BLEND_FACTOR_DST_COLOR, VK_BLEND_FACTOR_ONE_MINUS_DST_COLOR,
+                                         VK_BLEND_FACTOR_DST_ALPHA, VK_BLEND_FACTOR_ONE_MINUS_DST_ALPHA};
     return factors[static_cast<std::size_t>(factor)];
 }
 VkBlendOp toVk(BlendOperation operation) {
@@ -180,7 +201,9 @@ bool isBuffer(BindingType type) {
     return type == BindingType::UniformBuffer || type == BindingType::StorageBuffer ||
            type == BindingType::ReadOnlyStorageBuffer;
 }
-bool isSampler(BindingType type) { return type == BindingType::Sampler || type == BindingType::ComparisonSampler; }
+bool isSampler(BindingType type) {
+    return type == BindingType::Sampler || type == BindingType::ComparisonSampler;
+}
 BindingType canonical(BindingType type) {
     if (type == BindingType::DepthTexture) return BindingType::SampledTexture;
     return type == BindingType::ComparisonSampler ? BindingType::Sampler : type;
@@ -198,10 +221,11 @@ std::string flagNames(Flags flags, std::string_view prefix, const std::pair<Flag
 
 std::string usageNames(BufferUsage usage) {
     using enum BufferUsage;
-    constexpr std::pair<BufferUsage, std::string_view> all[] = {
-        {MapRead, "MapRead"}, {MapWrite, "MapWrite"}, {CopySrc, "CopySrc"}, {CopyDst, "CopyDst"}, {Index, "Index"},
-        {Vertex, "Vertex"}, {Uniform, "Uniform"}, {Storage, "Storage"}, {Indirect, "Indirect"},
-        {QueryResolve, "QueryResolve"}};
+    constexpr std::pair<BufferUsage, std::string_view> all[] = {{MapRead, "MapRead"},   {MapWrite, "MapWrite"},
+                                                                {CopySrc, "CopySrc"},   {CopyDst, "CopyDst"},
+                                                                {Index, "Index"},       {Vertex, "Vertex"},
+                                                                {Uniform, "Uniform"},   {Storage, "Storage"},
+                                                                {Indirect, "Indirect"}, {QueryResolve, "QueryResolve"}};
     return flagNames(usage, "BufferUsage::", all);
 }
 std::string usageNames(TextureUsage usage) {
@@ -219,17 +243,25 @@ std::string_view name(ShaderStage stage) {
 }
 std::string featureNames(Feature features) {
     std::string text;
-    for (std::uint32_t bit = 1; bit <= static_cast<std::uint32_t>(Feature::FragmentStores); bit <<= 1)
-        if (contains(features, static_cast<Feature>(bit)))
-            text += cat(text.empty() ? "" : ", ", name(static_cast<Feature>(bit)));
-    return text;
+    for (std::uint32_t bit = 1; bit != 0; bit <<= 1) {
+        if (!contains(features, static_cast<Feature>(bit))) continue;
+        const auto known = bit <= static_cast<std::uint32_t>(Feature::FragmentStores);
+        text += cat(text.empty() ? "" : ", ", known ? name(static_cast<Feature>(bit)) : cat("feature bit ", bit));
+    }
+    return text.empty() ? "none" : text;
 }
 
 }  // namespace detail
 
-std::uint32_t bytesPerTexel(TextureFormat format) { return detail::formatInfo(format).bytes; }
-bool isDepth(TextureFormat format) { return detail::formatInfo(format).numeric == detail::NumericClass::Depth; }
-std::string_view name(TextureFormat format) { return detail::formatInfo(format).name; }
+std::uint32_t bytesPerTexel(TextureFormat format) {
+    return detail::formatInfo(format).bytes;
+}
+bool isDepth(TextureFormat format) {
+    return detail::formatInfo(format).numeric == detail::NumericClass::Depth;
+}
+std::string_view name(TextureFormat format) {
+    return detail::formatInfo(format).name;
+}
 TextureFormat textureFormatFromName(std::string_view word) {
     for (const auto& f : detail::formats)
         if (f.name == word) return f.format;
@@ -237,24 +269,32 @@ TextureFormat textureFormatFromName(std::string_view word) {
 }
 
 std::string_view name(BindingType type) {
-    constexpr std::string_view names[] = {"UniformBuffer", "StorageBuffer", "ReadOnlyStorageBuffer", "Sampler",
-                                          "ComparisonSampler", "SampledTexture", "MultisampledTexture", "DepthTexture",
-                                          "StorageTexture", "ReadOnlyStorageTexture"};
+    constexpr std::string_view names[] = {
+        "UniformBuffer",  "StorageBuffer",       "ReadOnlyStorageBuffer", "Sampler",        "ComparisonSampler",
+        "SampledTexture", "MultisampledTexture", "DepthTexture",          "StorageTexture", "ReadOnlyStorageTexture"};
     return names[static_cast<std::size_t>(type)];
 }
 
 std::string_view name(Feature feature) {
     switch (feature) {
-        case Feature::None: return "None";
-        case Feature::WideLines: return "WideLines";
-        case Feature::PipelineStatistics: return "PipelineStatistics";
-        case Feature::Timestamps: return "Timestamps";
-        case Feature::Int64BufferAtomics: return "Int64BufferAtomics";
-        case Feature::FillModeNonSolid: return "FillModeNonSolid";
-        case Feature::AnisotropicFiltering: return "AnisotropicFiltering";
-        case Feature::FragmentStores: return "FragmentStores";
+        case Feature::None:
+            return "None";
+        case Feature::WideLines:
+            return "WideLines";
+        case Feature::PipelineStatistics:
+            return "PipelineStatistics";
+        case Feature::Timestamps:
+            return "Timestamps";
+        case Feature::Int64BufferAtomics:
+            return "Int64BufferAtomics";
+        case Feature::FillModeNonSolid:
+            return "FillModeNonSolid";
+        case Feature::AnisotropicFiltering:
+            return "AnisotropicFiltering";
+        case Feature::FragmentStores:
+            return "FragmentStores";
     }
-    return "several features";
+    return "an unknown feature";
 }
 
 }  // namespace pelage::rhi

@@ -119,7 +119,7 @@ Result<std::shared_ptr<DeviceObject>> makeDevice(const std::shared_ptr<AdapterOb
         return forward(vulkanError(r, "vkCreateDevice", title));
     auto& vk = device->functions;
     std::string missing;
-#define PELAGE_VK_DEVICE(name)                                                                      \
+#define PELAGE_VK_DEVICE(name)                                                           \
     vk.name = reinterpret_cast<PFN_##name>(instance.vkGetDeviceProcAddr(handle, #name)); \
     if (vk.name == nullptr) missing += " " #name;
 #define PELAGE_VK_DEVICE_OPTIONAL(name) \
@@ -152,8 +152,12 @@ Result<Device> Adapter::requestDevice(const DeviceDescriptor& descriptor) const 
     return detail::makeDevice(object_, descriptor).map([](auto object) { return Device(std::move(object)); });
 }
 
-const AdapterInfo& Device::info() const { return object_->info; }
-Queue Device::queue() const { return Queue(object_); }
+const AdapterInfo& Device::info() const {
+    return object_->info;
+}
+Queue Device::queue() const {
+    return Queue(object_);
+}
 
 bool Device::supports(TextureFormat format, TextureUsage usage, std::uint32_t sampleCount) const {
     if (!object_ || format == TextureFormat::Undefined || usage == TextureUsage::None) return false;

@@ -64,8 +64,8 @@ struct QueueState {
     std::uint64_t submitted = 0;  // the last value given out
     std::vector<CommandSlot> running, idle;
     std::vector<StagingChunk> staging;
-    std::unique_ptr<Recording> uploads;             // writes that the next submission carries
-    std::vector<VkSemaphoreSubmitInfo> acquired;    // binary semaphores that the next submission waits for
+    std::unique_ptr<Recording> uploads;           // writes that the next submission carries
+    std::vector<VkSemaphoreSubmitInfo> acquired;  // binary semaphores that the next submission waits for
 };
 
 struct DeviceObject : std::enable_shared_from_this<DeviceObject> {

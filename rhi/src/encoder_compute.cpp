@@ -41,8 +41,9 @@ void ComputePassEncoder::dispatchWorkgroups(std::uint32_t x, std::uint32_t y, st
     auto& e = *encoder_;
     const detail::CommandName command{"dispatch #", e.pass.commands++};
     if (!e.pass.pipeline)
-        return e.fail(invalid(ErrorCode::MissingState, "dispatchWorkgroups() needs a pipeline, and none is set.").value(),
-                      command.text());
+        return e.fail(
+            invalid(ErrorCode::MissingState, "dispatchWorkgroups() needs a pipeline, and none is set.").value(),
+            command.text());
     const auto limit = e.device->info.limits.maxComputeWorkgroupsPerDimension;
     if (x > limit || y > limit || z > limit)
         return e.fail(invalid(ErrorCode::OutOfRange, cat("dispatchWorkgroups(", x, ", ", y, ", ", z,
@@ -61,7 +62,8 @@ void ComputePassEncoder::dispatchWorkgroups(std::uint32_t x, std::uint32_t y, st
 }
 
 void ComputePassEncoder::pushDebugGroup(std::string_view label) {
-    if (encoder_ && encoder_->ready(EncoderObject::State::ComputePass, "pushDebugGroup")) encoder_->pushDebugGroup(label);
+    if (encoder_ && encoder_->ready(EncoderObject::State::ComputePass, "pushDebugGroup"))
+        encoder_->pushDebugGroup(label);
 }
 void ComputePassEncoder::popDebugGroup() {
     if (encoder_ && encoder_->ready(EncoderObject::State::ComputePass, "popDebugGroup")) encoder_->popDebugGroup();

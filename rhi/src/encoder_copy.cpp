@@ -27,24 +27,25 @@ Result<VkBufferImageCopy> texelCopy(const TexelCopyTextureInfo& info, const Texe
         return bad(ErrorCode::FormatUnsupported, texture.describe(), " has the format ", name(d.format),
                    ", which is not copied to or from buffers.");
     if (info.mipLevel >= d.mipLevelCount)
-        return bad(ErrorCode::OutOfRange, texture.describe(), " has ", d.mipLevelCount, " mip levels; the copy names level ",
-                   info.mipLevel, '.');
+        return bad(ErrorCode::OutOfRange, texture.describe(), " has ", d.mipLevelCount,
+                   " mip levels; the copy names level ", info.mipLevel, '.');
     const auto extent = texture.mipSize(info.mipLevel);
     const std::uint32_t depth = volume ? extent.depthOrArrayLayers : texture.layers();
-    if (std::uint64_t{info.origin.x} + size.width > extent.width || std::uint64_t{info.origin.y} + size.height > extent.height ||
+    if (std::uint64_t{info.origin.x} + size.width > extent.width ||
+        std::uint64_t{info.origin.y} + size.height > extent.height ||
         std::uint64_t{info.origin.z} + size.depthOrArrayLayers > depth)
         return bad(ErrorCode::OutOfRange, "The copy of ", size.width, 'x', size.height, 'x', size.depthOrArrayLayers,
                    " texels at ", info.origin.x, ", ", info.origin.y, ", ", info.origin.z, " reaches outside ",
-                   texture.describe(), ", whose mip level ", info.mipLevel, " is ", extent.width, 'x', extent.height, 'x',
-                   depth, '.');
+                   texture.describe(), ", whose mip level ", info.mipLevel, " is ", extent.width, 'x', extent.height,
+                   'x', depth, '.');
     if (size.width == 0 || size.height == 0 || size.depthOrArrayLayers == 0)
         return bad(ErrorCode::InvalidSize, "The copy with ", texture.describe(), " has an extent of 0.");
     const std::uint64_t row = layout.bytesPerRow != 0 ? layout.bytesPerRow : std::uint64_t{size.width} * texel;
     const std::uint64_t rows = layout.rowsPerImage != 0 ? layout.rowsPerImage : size.height;
     if (row < std::uint64_t{size.width} * texel || row % texel != 0 || rows < size.height)
-        return bad(ErrorCode::OutOfRange, "The copy with ", texture.describe(), " has ", row, " bytes per row and ", rows,
-                   " rows per image; rows hold whole texels and at least ", size.width * texel, " bytes, images at least ",
-                   size.height, " rows.");
+        return bad(ErrorCode::OutOfRange, "The copy with ", texture.describe(), " has ", row, " bytes per row and ",
+                   rows, " rows per image; rows hold whole texels and at least ", size.width * texel,
+                   " bytes, images at least ", size.height, " rows.");
     const std::uint64_t bytes =
         ((size.depthOrArrayLayers - 1) * rows + size.height - 1) * row + std::uint64_t{size.width} * texel;
     if (layout.offset > bufferSize || bytes > bufferSize - layout.offset)
@@ -52,8 +53,8 @@ Result<VkBufferImageCopy> texelCopy(const TexelCopyTextureInfo& info, const Texe
                    layout.offset, "; ", buffer, " has ", bufferSize, '.');
     const std::uint64_t alignment = std::max(texel, 4U);
     if (layout.offset % alignment != 0)
-        return bad(ErrorCode::OutOfRange, "The copy with ", texture.describe(), " starts at byte ", layout.offset, " of ",
-                   buffer, "; a multiple of ", alignment, " is needed.");
+        return bad(ErrorCode::OutOfRange, "The copy with ", texture.describe(), " starts at byte ", layout.offset,
+                   " of ", buffer, "; a multiple of ", alignment, " is needed.");
     VkBufferImageCopy region = {};
     region.bufferOffset = layout.offset;
     region.bufferRowLength = static_cast<std::uint32_t>(row / texel);
@@ -120,8 +121,9 @@ bool valid(EncoderObject& e, const Result<void>& result) {
 Result<void> range(const detail::BufferObject& b, std::uint64_t offset, std::uint64_t size, std::string_view what) {
     const std::uint64_t total = b.descriptor.size;
     if (offset <= total && size <= total - offset && offset % 4 == 0) return {};
-    return invalid(ErrorCode::OutOfRange, cat("The range ", offset, " … ", offset + size, " of ", what, " lies outside ",
-                                              b.describe(), ", which has ", total, " bytes, or starts off a multiple of 4."));
+    return invalid(ErrorCode::OutOfRange,
+                   cat("The range ", offset, " … ", offset + size, " of ", what, " lies outside ", b.describe(),
+                       ", which has ", total, " bytes, or starts off a multiple of 4."));
 }
 
 void scoped(EncoderObject& e, std::initializer_list<detail::Use> uses, detail::Packet command) {
@@ -165,8 +167,9 @@ void copyBufferTexture(EncoderObject& e, const TexelCopyBufferInfo& buffer, cons
     if (!region) return e.fail(region.error());
     e.recording.bufferImageRegions.push_back(*region);
     const auto index = static_cast<std::uint32_t>(e.recording.bufferImageRegions.size() - 1);
-    scoped(e, {detail::copyUse(b, toTexture ? UseKind::CopySource : UseKind::CopyDestination),
-               detail::copyUse(t, region->imageSubresource, toTexture ? UseKind::CopyDestination : UseKind::CopySource)},
+    scoped(e,
+           {detail::copyUse(b, toTexture ? UseKind::CopySource : UseKind::CopyDestination),
+            detail::copyUse(t, region->imageSubresource, toTexture ? UseKind::CopyDestination : UseKind::CopySource)},
            packet::CopyBufferImage{&b, &t, index, toTexture});
 }
 }  // namespace
@@ -187,7 +190,8 @@ void CommandEncoder::copyTextureToTexture(const TexelCopyTextureInfo& source, co
                                           const Extent3D& size) {
     if (!encoder_ || !encoder_->ready(State::Open, "copyTextureToTexture")) return;
     auto& e = *encoder_;
-    if (!e.accept(source.texture, "the source of a copy") || !e.accept(destination.texture, "the destination of a copy"))
+    if (!e.accept(source.texture, "the source of a copy") ||
+        !e.accept(destination.texture, "the destination of a copy"))
         return;
     auto &from = *source.texture.get(), &to = *destination.texture.get();
     if (!valid(e, needUsage(from, TextureUsage::CopySrc, "the source of a copy")) ||
@@ -201,9 +205,10 @@ void CommandEncoder::copyTextureToTexture(const TexelCopyTextureInfo& source, co
                                   name(t.format), "); texels of equal size and kind are needed."))
                           .value());
     if (f.sampleCount != t.sampleCount)
-        return e.fail(invalid(ErrorCode::SampleCount, cat(from.describe(), " has ", f.sampleCount, " samples and ",
-                                                          to.describe(), " has ", t.sampleCount, "; a copy needs equal counts."))
-                          .value());
+        return e.fail(
+            invalid(ErrorCode::SampleCount, cat(from.describe(), " has ", f.sampleCount, " samples and ", to.describe(),
+                                                " has ", t.sampleCount, "; a copy needs equal counts."))
+                .value());
     const auto inside = [&](const TexelCopyTextureInfo& info) -> Result<void> {
         const auto& object = *info.texture.get();
         if (info.mipLevel < object.descriptor.mipLevelCount) {
@@ -216,10 +221,10 @@ void CommandEncoder::copyTextureToTexture(const TexelCopyTextureInfo& source, co
                 std::uint64_t{info.origin.z} + size.depthOrArrayLayers <= depth)
                 return {};
         }
-        return invalid(ErrorCode::OutOfRange, cat("The copy of ", size.width, 'x', size.height, 'x', size.depthOrArrayLayers,
-                                                  " texels at ", info.origin.x, ", ", info.origin.y, ", ", info.origin.z,
-                                                  " of mip level ", info.mipLevel, " is empty or reaches outside ",
-                                                  object.describe(), '.'));
+        return invalid(ErrorCode::OutOfRange,
+                       cat("The copy of ", size.width, 'x', size.height, 'x', size.depthOrArrayLayers, " texels at ",
+                           info.origin.x, ", ", info.origin.y, ", ", info.origin.z, " of mip level ", info.mipLevel,
+                           " is empty or reaches outside ", object.describe(), '.'));
     };
     if (!valid(e, inside(source)) || !valid(e, inside(destination))) return;
     VkImageCopy region = {};
@@ -230,17 +235,20 @@ void CommandEncoder::copyTextureToTexture(const TexelCopyTextureInfo& source, co
     const bool volume = f.dimension == TextureDimension::E3D || t.dimension == TextureDimension::E3D;
     region.extent = {size.width, size.height, volume ? size.depthOrArrayLayers : 1};
     e.recording.imageRegions.push_back(region);
-    scoped(e, {detail::copyUse(from, region.srcSubresource, UseKind::CopySource),
-               detail::copyUse(to, region.dstSubresource, UseKind::CopyDestination)},
+    scoped(e,
+           {detail::copyUse(from, region.srcSubresource, UseKind::CopySource),
+            detail::copyUse(to, region.dstSubresource, UseKind::CopyDestination)},
            packet::CopyImage{&from, &to, static_cast<std::uint32_t>(e.recording.imageRegions.size() - 1)});
 }
 
 void CommandEncoder::clearBuffer(const Buffer& buffer, std::uint64_t offset, std::uint64_t size) {
-    if (!encoder_ || !encoder_->ready(State::Open, "clearBuffer") || !encoder_->accept(buffer, "the buffer to clear")) return;
+    if (!encoder_ || !encoder_->ready(State::Open, "clearBuffer") || !encoder_->accept(buffer, "the buffer to clear"))
+        return;
     auto& e = *encoder_;
     auto& b = *buffer.get();
     if (size == 0 && offset < b.descriptor.size) size = (b.descriptor.size - offset) & ~std::uint64_t{3};
-    if (!valid(e, needUsage(b, BufferUsage::CopyDst, "clearBuffer()")) || !valid(e, range(b, offset, size, "the fill"))) return;
+    if (!valid(e, needUsage(b, BufferUsage::CopyDst, "clearBuffer()")) || !valid(e, range(b, offset, size, "the fill")))
+        return;
     if (size % 4 != 0)
         return e.fail(invalid(ErrorCode::InvalidSize, cat("clearBuffer() of ", b.describe(), " has ", size,
                                                           " bytes; a multiple of 4 is needed."))
@@ -263,10 +271,10 @@ void CommandEncoder::resolveQuerySet(const QuerySet& set, std::uint32_t first, s
     auto& q = *set.get();
     auto& b = *destination.get();
     if (std::uint64_t{first} + count > q.descriptor.count)
-        return e.fail(invalid(ErrorCode::QueryRange, cat(q.describe(), " has ", q.descriptor.count,
-                                                         " queries; the queries ", first, " … ",
-                                                         std::uint64_t{first} + count, " were to be resolved."))
-                          .value());
+        return e.fail(
+            invalid(ErrorCode::QueryRange, cat(q.describe(), " has ", q.descriptor.count, " queries; the queries ",
+                                               first, " … ", std::uint64_t{first} + count, " were to be resolved."))
+                .value());
     const std::uint64_t each = q.descriptor.type == QueryType::Timestamp ? 8 : sizeof(PipelineStatistics);
     if (!valid(e, needUsage(b, BufferUsage::QueryResolve, "a query resolve")) ||
         !valid(e, range(b, destinationOffset, each * count, "the results")))
@@ -276,7 +284,8 @@ void CommandEncoder::resolveQuerySet(const QuerySet& set, std::uint32_t first, s
                                                          b.describe(), "; a multiple of 8 is needed."))
                           .value());
     if (count == 0) return;
-    scoped(e, {detail::copyUse(b, UseKind::QueryResolve)}, packet::ResolveQueries{&q, &b, destinationOffset, first, count});
+    scoped(e, {detail::copyUse(b, UseKind::QueryResolve)},
+           packet::ResolveQueries{&q, &b, destinationOffset, first, count});
 }
 
 void CommandEncoder::pushDebugGroup(std::string_view label) {
@@ -290,7 +299,8 @@ Result<CommandBuffer> CommandEncoder::finish() {
     if (!encoder_) return invalid(ErrorCode::InvalidHandle, "finish() was called on an empty encoder.");
     auto& e = *encoder_;
     if (e.ready(State::Open, "finish") && e.debugGroups != 0)
-        e.fail(invalid(ErrorCode::EncoderState, cat(e.debugGroups, " debug groups were left open at finish().")).value());
+        e.fail(
+            invalid(ErrorCode::EncoderState, cat(e.debugGroups, " debug groups were left open at finish().")).value());
     e.state = State::Finished;
     if (e.error) {
         e.recording = {};
@@ -304,7 +314,9 @@ Result<CommandBuffer> CommandEncoder::finish() {
     return CommandBuffer(std::move(object));
 }
 
-const CommandBuffer::Counters& CommandBuffer::counters() const { return object_->counters; }
+const CommandBuffer::Counters& CommandBuffer::counters() const {
+    return object_->counters;
+}
 
 CommandEncoder Device::createCommandEncoder(std::string label) const {
     if (!object_) return {};

@@ -96,11 +96,12 @@ bool EncoderObject::ready(State wanted, std::string_view call) {
     if (error) return false;
     if (state == wanted) return true;
     constexpr std::string_view names[] = {"outside a pass", "in a render pass", "in a compute pass", "after finish()"};
-    fail(invalid(ErrorCode::EncoderState,
-                 cat(call, "() was called ", names[static_cast<std::size_t>(state)], "; it belongs ",
-                     wanted == State::Open ? "outside a pass, before finish()" : names[static_cast<std::size_t>(wanted)],
-                     '.'))
-             .value());
+    fail(
+        invalid(ErrorCode::EncoderState,
+                cat(call, "() was called ", names[static_cast<std::size_t>(state)], "; it belongs ",
+                    wanted == State::Open ? "outside a pass, before finish()" : names[static_cast<std::size_t>(wanted)],
+                    '.'))
+            .value());
     return false;
 }
 
@@ -108,8 +109,7 @@ bool EncoderObject::use(const Use& wanted, const CommandName& command) {
     const Use* other = scope.add(wanted);
     if (other == nullptr) return true;
     const auto place = [](const Use& u) {
-        return u.binding < 0 ? std::string()
-                             : cat(" (group ", u.group, " binding ", u.binding, ')');
+        return u.binding < 0 ? std::string() : cat(" (group ", u.group, " binding ", u.binding, ')');
     };
     fail(invalid(ErrorCode::UsageConflict,
                  cat(wanted.object->describe(), " is used as ", name(other->kind), place(*other), " and as ",
@@ -128,13 +128,15 @@ void EncoderObject::setBindGroup(std::uint32_t index, const BindGroup& group, st
     const auto& object = *group.get();
     const auto& layout = *object.layout;
     if (index >= device->info.limits.maxBindGroups)
-        return fail(invalid(ErrorCode::OutOfRange, cat(object.describe(), " is set at index ", index, "; the device has ",
-                                                       device->info.limits.maxBindGroups, " groups."))
-                        .value());
+        return fail(
+            invalid(ErrorCode::OutOfRange, cat(object.describe(), " is set at index ", index, "; the device has ",
+                                               device->info.limits.maxBindGroups, " groups."))
+                .value());
     if (offsets.size() != layout.dynamicCount)
-        return fail(invalid(ErrorCode::BindingMismatch, cat(object.describe(), " is set with ", offsets.size(),
-                                                            " dynamic offsets; its layout has ", layout.dynamicCount, '.'))
-                        .value());
+        return fail(
+            invalid(ErrorCode::BindingMismatch, cat(object.describe(), " is set with ", offsets.size(),
+                                                    " dynamic offsets; its layout has ", layout.dynamicCount, '.'))
+                .value());
     std::size_t next = 0;
     for (std::size_t i = 0; i < layout.entries.size(); ++i) {
         const auto& e = layout.entries[i];
@@ -153,7 +155,8 @@ void EncoderObject::setBindGroup(std::uint32_t index, const BindGroup& group, st
     }
     if (pass.groups.size() <= index) pass.groups.resize(index + 1);
     auto& slot = pass.groups[index];
-    if (slot.group == group.shared() && std::equal(offsets.begin(), offsets.end(), slot.offsets.begin(), slot.offsets.end()))
+    if (slot.group == group.shared() &&
+        std::equal(offsets.begin(), offsets.end(), slot.offsets.begin(), slot.offsets.end()))
         return;
     if (slot.group != group.shared()) pass.groupsChanged = true;
     slot.group = group.shared();
@@ -167,11 +170,11 @@ void EncoderObject::setPushConstants(std::uint32_t offset, std::span<const std::
         pass.pipeline ? pass.pipeline->layout->pushConstantsSize
                       : std::min<std::uint64_t>(device->info.limits.maxPushConstantsSize, pass.push.size());
     if (end > limit || offset % 4 != 0 || bytes.size() % 4 != 0)
-        return fail(invalid(ErrorCode::PushConstantRange,
-                            cat("Push constants were set for the bytes ", offset, " … ", end, "; ",
-                                pass.pipeline ? pass.pipeline->describe() : "the device", " has ", limit,
-                                " bytes, and multiples of 4 are needed."))
-                        .value());
+        return fail(
+            invalid(ErrorCode::PushConstantRange, cat("Push constants were set for the bytes ", offset, " … ", end,
+                                                      "; ", pass.pipeline ? pass.pipeline->describe() : "the device",
+                                                      " has ", limit, " bytes, and multiples of 4 are needed."))
+                .value());
     std::memcpy(pass.push.data() + offset, bytes.data(), bytes.size());
     pass.pushDirty = true;
 }
@@ -185,7 +188,8 @@ void EncoderObject::pushDebugGroup(std::string_view text) {
 void EncoderObject::popDebugGroup() {
     auto& depth = state == State::Open ? debugGroups : pass.debugGroups;
     if (depth == 0)
-        return fail(invalid(ErrorCode::EncoderState, "popDebugGroup() was called without an open debug group.").value());
+        return fail(
+            invalid(ErrorCode::EncoderState, "popDebugGroup() was called without an open debug group.").value());
     --depth;
     add(packet::EndLabel{});
 }
@@ -194,9 +198,9 @@ bool EncoderObject::queryIndex(const QuerySet& set, QueryType type, std::uint32_
     if (!accept(set, what)) return false;
     const auto& object = *set.get();
     if (object.descriptor.type != type) {
-        fail(invalid(ErrorCode::QueryRange, cat(object.describe(), " holds ",
-                                                type == QueryType::Timestamp ? "statistics" : "timestamps", "; ", what,
-                                                " needs ", type == QueryType::Timestamp ? "timestamps." : "statistics."))
+        fail(invalid(ErrorCode::QueryRange,
+                     cat(object.describe(), " holds ", type == QueryType::Timestamp ? "statistics" : "timestamps", "; ",
+                         what, " needs ", type == QueryType::Timestamp ? "timestamps." : "statistics."))
                  .value());
         return false;
     }
@@ -213,9 +217,9 @@ bool EncoderObject::timestamps(const std::optional<TimestampWrites>& writes) {
         if (index && !queryIndex(writes->querySet, QueryType::Timestamp, *index, "the pass' timestampWrites"))
             return false;
     if (writes->beginningOfPassWriteIndex && writes->beginningOfPassWriteIndex == writes->endOfPassWriteIndex) {
-        fail(invalid(ErrorCode::QueryRange, cat(writes->querySet.get()->describe(), " query ",
-                                                *writes->endOfPassWriteIndex,
-                                                " is written at the beginning and at the end of one pass."))
+        fail(invalid(ErrorCode::QueryRange,
+                     cat(writes->querySet.get()->describe(), " query ", *writes->endOfPassWriteIndex,
+                         " is written at the beginning and at the end of one pass."))
                  .value());
         return false;
     }
@@ -237,7 +241,8 @@ void EncoderObject::beginPass(State next, std::string context, const std::string
 
 void EncoderObject::endPass() {
     if (pass.debugGroups != 0)
-        fail(invalid(ErrorCode::EncoderState, cat(pass.debugGroups, " debug groups were left open at the end of the pass."))
+        fail(invalid(ErrorCode::EncoderState,
+                     cat(pass.debugGroups, " debug groups were left open at the end of the pass."))
                  .value());
     if (pass.timestamps && pass.timestamps->endOfPassWriteIndex)
         add(packet::Timestamp{pass.timestamps->querySet.get(), *pass.timestamps->endOfPassWriteIndex, false});
@@ -281,7 +286,8 @@ bool EncoderObject::flushBindings(VkPipelineBindPoint point, VkPipelineStageFlag
         }
         const auto first = static_cast<std::uint32_t>(recording.offsets.size());
         recording.offsets.insert(recording.offsets.end(), slot.offsets.begin(), slot.offsets.end());
-        add(packet::BindSet{slot.group.get(), &layout, point, i, first, static_cast<std::uint32_t>(slot.offsets.size())});
+        add(packet::BindSet{slot.group.get(), &layout, point, i, first,
+                            static_cast<std::uint32_t>(slot.offsets.size())});
         slot.dirty = false;
     }
     if (pass.groupsChanged)

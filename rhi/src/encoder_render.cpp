@@ -33,24 +33,24 @@ struct PassBuilder {
         const auto& view = *handle.get();
         const auto& t = view.texture->descriptor;
         if (!contains(t.usage, TextureUsage::RenderAttachment))
-            return stop(ErrorCode::InvalidUsage, cat(view.texture->describe(), " was created without ",
-                                                     detail::usageNames(TextureUsage::RenderAttachment), ", which ", what,
-                                                     " needs."));
+            return stop(ErrorCode::InvalidUsage,
+                        cat(view.texture->describe(), " was created without ",
+                            detail::usageNames(TextureUsage::RenderAttachment), ", which ", what, " needs."));
         if (isDepth(t.format) != depth)
             return stop(ErrorCode::TargetMismatch, cat(view.texture->describe(), " has the format ", name(t.format),
                                                        ", which cannot be ", what, '.'));
         if (view.range.mips != 1)
-            return stop(ErrorCode::OutOfRange, cat(view.describe(), " has ", view.range.mips, " mip levels; ", what,
-                                                   " needs a view of 1."));
+            return stop(ErrorCode::OutOfRange,
+                        cat(view.describe(), " has ", view.range.mips, " mip levels; ", what, " needs a view of 1."));
         if (first == nullptr) {
             first = &view;
             pass.size = view.size;
             pass.layers = view.range.layers;
         } else if (!(view.size == pass.size) || view.range.layers != pass.layers)
             return stop(ErrorCode::InvalidSize,
-                        cat(view.describe(), " is ", view.size.width, 'x', view.size.height, " with ", view.range.layers,
-                            " layers; ", first->describe(), " is ", pass.size.width, 'x', pass.size.height, " with ",
-                            pass.layers, '.'));
+                        cat(view.describe(), " is ", view.size.width, 'x', view.size.height, " with ",
+                            view.range.layers, " layers; ", first->describe(), " is ", pass.size.width, 'x',
+                            pass.size.height, " with ", pass.layers, '.'));
         if (resolve) return true;
         if (samples != 0 && samples != t.sampleCount)
             return stop(ErrorCode::SampleCount, cat(view.texture->describe(), " has ", t.sampleCount,
@@ -85,8 +85,9 @@ bool PassBuilder::color(const RenderPassColorAttachment& a, std::size_t index) {
     packet.store = a.storeOp;
     const auto& format = a.view.get()->texture->descriptor.format;
     if (detail::formatInfo(format).numeric == detail::NumericClass::Uint)
-        packet.clear.color = {.uint32 = {static_cast<std::uint32_t>(a.clearValue.r), static_cast<std::uint32_t>(a.clearValue.g),
-                                         static_cast<std::uint32_t>(a.clearValue.b), static_cast<std::uint32_t>(a.clearValue.a)}};
+        packet.clear.color = {
+            .uint32 = {static_cast<std::uint32_t>(a.clearValue.r), static_cast<std::uint32_t>(a.clearValue.g),
+                       static_cast<std::uint32_t>(a.clearValue.b), static_cast<std::uint32_t>(a.clearValue.a)}};
     else
         packet.clear.color = {.float32 = {static_cast<float>(a.clearValue.r), static_cast<float>(a.clearValue.g),
                                           static_cast<float>(a.clearValue.b), static_cast<float>(a.clearValue.a)}};
@@ -101,13 +102,14 @@ bool PassBuilder::color(const RenderPassColorAttachment& a, std::size_t index) {
                             " samples cannot be resolved to ", packet.resolve->texture->describe(), " with ",
                             target.sampleCount, "; several samples are resolved to 1."));
         if (target.format != format)
-            return stop(ErrorCode::TargetMismatch, cat(packet.resolve->texture->describe(), " has the format ",
-                                                       name(target.format), "; the attachment resolved to it has ",
-                                                       name(format), '.'));
+            return stop(ErrorCode::TargetMismatch,
+                        cat(packet.resolve->texture->describe(), " has the format ", name(target.format),
+                            "; the attachment resolved to it has ", name(format), '.'));
         if (e.device->toggles.resolveToFirstLayerOnly && packet.resolve->range.baseLayer > 0) {
-            e.fail(detail::fail(ErrorKind::Unsupported, ErrorCode::FormatUnsupported,
-                                cat(packet.resolve->describe(), " is array layer ", packet.resolve->range.baseLayer,
-                                    "; this driver resolves only to layer 0 of a texture. Resolve to a texture of its own."))
+            e.fail(detail::fail(
+                       ErrorKind::Unsupported, ErrorCode::FormatUnsupported,
+                       cat(packet.resolve->describe(), " is array layer ", packet.resolve->range.baseLayer,
+                           "; this driver resolves only to layer 0 of a texture. Resolve to a texture of its own."))
                        .value(),
                    cat("RenderPass \"", pass.label, '"'));
             return false;
@@ -206,8 +208,8 @@ void RenderPassEncoder::setPipeline(const RenderPipeline& pipeline) {
     }
     const auto depth = pass.depth ? pass.depth->view->texture->descriptor.format : TextureFormat::Undefined;
     if (object.depthFormat != depth)
-        return stop(ErrorCode::TargetMismatch, " has the depth format ", name(object.depthFormat),
-                    "; the pass has ", name(depth), '.');
+        return stop(ErrorCode::TargetMismatch, " has the depth format ", name(object.depthFormat), "; the pass has ",
+                    name(depth), '.');
     if (pass.depth && pass.depth->view->texture->descriptor.sampleCount != object.sampleCount)
         return stop(ErrorCode::SampleCount, " has ", object.sampleCount, " samples; the depth attachment has ",
                     pass.depth->view->texture->descriptor.sampleCount, '.');
@@ -219,7 +221,8 @@ void RenderPassEncoder::setPipeline(const RenderPipeline& pipeline) {
 
 void RenderPassEncoder::setBindGroup(std::uint32_t index, const BindGroup& group,
                                      std::span<const std::uint32_t> dynamicOffsets) {
-    if (encoder_ && encoder_->ready(State::RenderPass, "setBindGroup")) encoder_->setBindGroup(index, group, dynamicOffsets);
+    if (encoder_ && encoder_->ready(State::RenderPass, "setBindGroup"))
+        encoder_->setBindGroup(index, group, dynamicOffsets);
 }
 
 namespace {
@@ -228,15 +231,16 @@ bool geometryBuffer(EncoderObject& e, const Buffer& buffer, BufferUsage usage, s
     if (!e.accept(buffer, what)) return false;
     auto& object = *buffer.get();
     if (!contains(object.descriptor.usage, usage)) {
-        e.fail(invalid(ErrorCode::InvalidUsage, cat(object.describe(), " was created without ", detail::usageNames(usage),
-                                                    ", which ", what, " needs."))
+        e.fail(invalid(ErrorCode::InvalidUsage, cat(object.describe(), " was created without ",
+                                                    detail::usageNames(usage), ", which ", what, " needs."))
                    .value());
         return false;
     }
     if (offset >= object.descriptor.size || offset % 4 != 0) {
-        e.fail(invalid(ErrorCode::OutOfRange, cat(object.describe(), " has ", object.descriptor.size, " bytes; ", what,
-                                                  " starts at byte ", offset, ", and a multiple of 4 inside is needed."))
-                   .value());
+        e.fail(
+            invalid(ErrorCode::OutOfRange, cat(object.describe(), " has ", object.descriptor.size, " bytes; ", what,
+                                               " starts at byte ", offset, ", and a multiple of 4 inside is needed."))
+                .value());
         return false;
     }
     detail::Use use;
@@ -251,7 +255,8 @@ void RenderPassEncoder::setVertexBuffer(std::uint32_t slot, const Buffer& buffer
     if (!encoder_ || !encoder_->ready(State::RenderPass, "setVertexBuffer")) return;
     auto& e = *encoder_;
     if (slot >= 16)  // Vulkan promises 16 on every device
-        return e.fail(invalid(ErrorCode::OutOfRange, cat("Vertex buffer slot ", slot, " is above the limit of 15.")).value());
+        return e.fail(
+            invalid(ErrorCode::OutOfRange, cat("Vertex buffer slot ", slot, " is above the limit of 15.")).value());
     if (!geometryBuffer(e, buffer, BufferUsage::Vertex, offset, UseKind::VertexBuffer, cat("vertex buffer ", slot)))
         return;
     if (e.pass.vertexBuffers.size() <= slot) e.pass.vertexBuffers.resize(slot + 1);
@@ -278,12 +283,14 @@ void RenderPassEncoder::setPushConstants(std::uint32_t offset, std::span<const s
 void RenderPassEncoder::setViewport(float x, float y, float width, float height, float minDepth, float maxDepth) {
     if (!encoder_ || !encoder_->ready(State::RenderPass, "setViewport")) return;
     const auto limit = static_cast<float>(encoder_->device->info.limits.maxTextureDimension2D);
-    if (!(width > 0 && height > 0 && width <= limit && height <= limit && minDepth >= 0 && minDepth <= 1 && maxDepth >= 0 &&
-          maxDepth <= 1 && x >= -2 * limit && y >= -2 * limit && x + width < 2 * limit && y + height < 2 * limit))
-        return encoder_->fail(invalid(ErrorCode::OutOfRange,
-                                      cat("The viewport ", x, ", ", y, ", ", width, 'x', height, " with depth ", minDepth,
-                                          " … ", maxDepth, " is empty or above the device's limit of ", limit, '.'))
-                                  .value());
+    if (!(width > 0 && height > 0 && width <= limit && height <= limit && minDepth >= 0 && minDepth <= 1 &&
+          maxDepth >= 0 && maxDepth <= 1 && x >= -2 * limit && y >= -2 * limit && x + width < 2 * limit &&
+          y + height < 2 * limit))
+        return encoder_->fail(
+            invalid(ErrorCode::OutOfRange,
+                    cat("The viewport ", x, ", ", y, ", ", width, 'x', height, " with depth ", minDepth, " … ",
+                        maxDepth, " is empty or above the device's limit of ", limit, '.'))
+                .value());
     viewport(*encoder_, x, y, width, height, minDepth, maxDepth);
 }
 
@@ -291,9 +298,9 @@ void RenderPassEncoder::setScissorRect(std::uint32_t x, std::uint32_t y, std::ui
     if (!encoder_ || !encoder_->ready(State::RenderPass, "setScissorRect")) return;
     const auto& size = encoder_->recording.passes.back().size;
     if (std::uint64_t{x} + width > size.width || std::uint64_t{y} + height > size.height)
-        return encoder_->fail(invalid(ErrorCode::OutOfRange,
-                                      cat("The scissor rectangle ", x, ", ", y, ", ", width, 'x', height,
-                                          " reaches outside the attachments, which are ", size.width, 'x', size.height, '.'))
+        return encoder_->fail(invalid(ErrorCode::OutOfRange, cat("The scissor rectangle ", x, ", ", y, ", ", width, 'x',
+                                                                 height, " reaches outside the attachments, which are ",
+                                                                 size.width, 'x', size.height, '.'))
                                   .value());
     encoder_->add(packet::Scissor{{{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y)}, {width, height}}});
 }
@@ -302,13 +309,15 @@ void RenderPassEncoder::setLineWidth(float width) {
     if (!encoder_ || !encoder_->ready(State::RenderPass, "setLineWidth")) return;
     const float limit = encoder_->device->info.limits.maxLineWidth;
     // NaN compares false with everything and becomes 1, the width every device has.
-    encoder_->add(packet::LineWidth{width >= 1 || limit > 1 ? std::clamp(width > 0 ? width : 1.0F, limit > 1 ? 0.01F : 1.0F, limit) : 1.0F});
+    encoder_->add(packet::LineWidth{
+        width >= 1 || limit > 1 ? std::clamp(width > 0 ? width : 1.0F, limit > 1 ? 0.01F : 1.0F, limit) : 1.0F});
 }
 
 namespace {
 
 /// Everything a draw needs is set and large enough.
-bool readyToDraw(EncoderObject& e, const detail::CommandName& command, std::uint64_t vertices, std::uint64_t instances) {
+bool readyToDraw(EncoderObject& e, const detail::CommandName& command, std::uint64_t vertices,
+                 std::uint64_t instances) {
     const auto stop = [&](ErrorCode code, std::string text) {
         e.fail(invalid(code, std::move(text)).value(), command.text());
         return false;
@@ -361,11 +370,11 @@ void RenderPassEncoder::drawIndexed(std::uint32_t indexCount, std::uint32_t inst
     const std::uint64_t stride = e.pass.indexFormat == IndexFormat::Uint16 ? 2 : 4;
     const std::uint64_t end = e.pass.index.offset + (std::uint64_t{firstIndex} + indexCount) * stride;
     if (end > e.pass.index.buffer->descriptor.size)
-        return e.fail(invalid(ErrorCode::OutOfRange,
-                              cat("The draw reads ", end, " bytes of ", e.pass.index.buffer->describe(),
-                                  " as indices, which has ", e.pass.index.buffer->descriptor.size, '.'))
-                          .value(),
-                      command.text());
+        return e.fail(
+            invalid(ErrorCode::OutOfRange, cat("The draw reads ", end, " bytes of ", e.pass.index.buffer->describe(),
+                                               " as indices, which has ", e.pass.index.buffer->descriptor.size, '.'))
+                .value(),
+            command.text());
     // How far the indices reach is known only on the device; instances are known here.
     if (!readyToDraw(e, command, 0, instanceCount == 0 ? 0 : std::uint64_t{firstInstance} + instanceCount)) return;
     e.pass.groupsChanged = false;

@@ -94,7 +94,8 @@ Result<std::shared_ptr<InstanceObject>> makeInstance(const InstanceDescriptor& d
     VkDebugUtilsMessengerCreateInfoEXT messenger = {VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT};
     messenger.messageSeverity =
         VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT;
-    messenger.messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
+    messenger.messageType =
+        VK_DEBUG_UTILS_MESSAGE_TYPE_GENERAL_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT;
     messenger.pfnUserCallback = onDebugMessage;
     messenger.pUserData = object.get();
 
@@ -122,7 +123,7 @@ Result<std::shared_ptr<InstanceObject>> makeInstance(const InstanceDescriptor& d
 
     auto& vk = object->vk;
     std::string missing;
-#define PELAGE_VK_INSTANCE(name)                                                               \
+#define PELAGE_VK_INSTANCE(name)                                                        \
     vk.name = reinterpret_cast<PFN_##name>(object->getProcAddr(object->handle, #name)); \
     if (vk.name == nullptr) missing += " " #name;
 #define PELAGE_VK_INSTANCE_OPTIONAL(name) \

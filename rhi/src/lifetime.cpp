@@ -49,7 +49,8 @@ std::uint64_t DeviceObject::completed() {
         return knownCompleted;
     }
     std::uint64_t known = knownCompleted;
-    while (known < value && !knownCompleted.compare_exchange_weak(known, value)) {}
+    while (known < value && !knownCompleted.compare_exchange_weak(known, value)) {
+    }
     return std::max(known, value);
 }
 
@@ -99,7 +100,8 @@ Result<std::pair<VkDescriptorSet, VkDescriptorPool>> DeviceObject::allocateSet(V
     pool.maxSets = sets;
     pool.poolSizeCount = static_cast<std::uint32_t>(std::size(sizes));
     pool.pPoolSizes = sizes;
-    if (const auto r = functions.vkCreateDescriptorPool(handle, &pool, nullptr, &allocate.descriptorPool); r != VK_SUCCESS)
+    if (const auto r = functions.vkCreateDescriptorPool(handle, &pool, nullptr, &allocate.descriptorPool);
+        r != VK_SUCCESS)
         return forward(vulkanError(r, "vkCreateDescriptorPool", object));
     pools.push_back(allocate.descriptorPool);
     if (const auto r = functions.vkAllocateDescriptorSets(handle, &allocate, &set); r != VK_SUCCESS)

@@ -72,8 +72,8 @@ Result<MemoryBlock*> MemoryAllocator::addBlock(std::uint32_t type, bool optimalI
     return blocks_.back().get();
 }
 
-Result<Allocation> MemoryAllocator::allocate(const VkMemoryRequirements& requirements, MemoryUse use,
-                                             bool optimalImage, const std::string& object) {
+Result<Allocation> MemoryAllocator::allocate(const VkMemoryRequirements& requirements, MemoryUse use, bool optimalImage,
+                                             const std::string& object) {
     const auto type = chooseType(properties_, requirements.memoryTypeBits, use);
     const auto fallback = type ? type : chooseType(properties_, requirements.memoryTypeBits, MemoryUse::Upload);
     if (!fallback)

@@ -16,7 +16,8 @@ PipelineObject::~PipelineObject() {
     {
         const std::lock_guard lock(device->cacheMutex);
         const auto known = device->pipelineCacheByKey.find(key);
-        if (known != device->pipelineCacheByKey.end() && known->second.expired()) device->pipelineCacheByKey.erase(known);
+        if (known != device->pipelineCacheByKey.end() && known->second.expired())
+            device->pipelineCacheByKey.erase(known);
     }
     device->bury(lastUse,
                  [pipeline = handle](DeviceObject& d) { d.functions.vkDestroyPipeline(d.handle, pipeline, nullptr); });
@@ -37,7 +38,8 @@ namespace {
 std::optional<std::uint32_t> bitsOf(SpecConstant::Type type, double value) {
     const bool whole = std::isfinite(value) && value == std::floor(value);
     switch (type) {
-        case SpecConstant::Type::Bool: return value != 0 ? VK_TRUE : VK_FALSE;
+        case SpecConstant::Type::Bool:
+            return value != 0 ? VK_TRUE : VK_FALSE;
         case SpecConstant::Type::Int:
             if (!whole || value < std::numeric_limits<std::int32_t>::min() ||
                 value > std::numeric_limits<std::int32_t>::max())
@@ -46,7 +48,8 @@ std::optional<std::uint32_t> bitsOf(SpecConstant::Type type, double value) {
         case SpecConstant::Type::Uint:
             if (!whole || value < 0 || value > std::numeric_limits<std::uint32_t>::max()) return std::nullopt;
             return static_cast<std::uint32_t>(value);
-        case SpecConstant::Type::Float: break;
+        case SpecConstant::Type::Float:
+            break;
     }
     return std::bit_cast<std::uint32_t>(static_cast<float>(value));
 }
@@ -83,9 +86,9 @@ Result<Stage> makeStage(const DeviceObject& device, const ProgrammableStage& pro
         }
         const auto bits = bitsOf(found->type, constant.value);
         if (!bits)
-            return invalid(ErrorCode::OutOfRange, cat(object, " sets the constant \"", constant.name, "\" of ",
-                                                      module.describe(), " to ", constant.value, ", which is no ",
-                                                      typeName(found->type), '.'));
+            return invalid(ErrorCode::OutOfRange,
+                           cat(object, " sets the constant \"", constant.name, "\" of ", module.describe(), " to ",
+                               constant.value, ", which is no ", typeName(found->type), '.'));
         stage.map.push_back({found->id, static_cast<std::uint32_t>(stage.data.size() * 4), 4});
         stage.data.push_back(*bits);
     }
@@ -114,11 +117,12 @@ Result<void> merge(BindGroupLayoutEntry& into, const BindGroupLayoutEntry& from,
                          from.type != BindingType::UniformBuffer;
     const bool images = toVk(into.type, false) == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE &&
                         toVk(from.type, false) == VK_DESCRIPTOR_TYPE_STORAGE_IMAGE;
-    if ((canonical(into.type) != canonical(from.type) && !storage && !images) || into.viewDimension != from.viewDimension)
-        return invalid(ErrorCode::LayoutMismatch,
-                       cat(object, " declares group ", group, " binding ", into.binding, " as the ", name(into.type),
-                           " \"", into.name, "\" in one stage and as the ", name(from.type), " \"", from.name,
-                           "\" in the other."));
+    if ((canonical(into.type) != canonical(from.type) && !storage && !images) ||
+        into.viewDimension != from.viewDimension)
+        return invalid(
+            ErrorCode::LayoutMismatch,
+            cat(object, " declares group ", group, " binding ", into.binding, " as the ", name(into.type), " \"",
+                into.name, "\" in one stage and as the ", name(from.type), " \"", from.name, "\" in the other."));
     if (canonical(into.type) != canonical(from.type))  // one stage writes: the binding is writable
         into.type = storage ? BindingType::StorageBuffer : BindingType::StorageTexture;
     into.minBindingSize = std::max(into.minBindingSize, from.minBindingSize);
@@ -128,27 +132,31 @@ Result<void> merge(BindGroupLayoutEntry& into, const BindGroupLayoutEntry& from,
 Result<void> checkAgainst(const PipelineLayoutObject& layout, const Stage& stage, const std::string& object) {
     const auto& reflection = stage.module->reflection;
     for (const auto& b : reflection.bindings) {
-        const auto what = cat(stage.module->describe(), " declares group ", b.group, " binding ", b.entry.binding, " \"",
-                              b.entry.name, "\" (", name(b.entry.type), ')');
-        const BindGroupLayoutEntry* e =
-            b.group < layout.sets.size() && layout.sets[b.group] ? layout.sets[b.group]->find(b.entry.binding) : nullptr;
+        const auto what = cat(stage.module->describe(), " declares group ", b.group, " binding ", b.entry.binding,
+                              " \"", b.entry.name, "\" (", name(b.entry.type), ')');
+        const BindGroupLayoutEntry* e = b.group < layout.sets.size() && layout.sets[b.group]
+                                            ? layout.sets[b.group]->find(b.entry.binding)
+                                            : nullptr;
         if (e == nullptr)
             return invalid(ErrorCode::LayoutMismatch,
                            cat(what, ", which ", layout.describe(), " of ", object, " does not have."));
-        const bool same = canonical(e->type) == canonical(b.entry.type) ||
-                          (e->type == BindingType::StorageBuffer && b.entry.type == BindingType::ReadOnlyStorageBuffer) ||
-                          (e->type == BindingType::StorageTexture && b.entry.type == BindingType::ReadOnlyStorageTexture);
+        const bool same =
+            canonical(e->type) == canonical(b.entry.type) ||
+            (e->type == BindingType::StorageBuffer && b.entry.type == BindingType::ReadOnlyStorageBuffer) ||
+            (e->type == BindingType::StorageTexture && b.entry.type == BindingType::ReadOnlyStorageTexture);
         if (!same || (!isBuffer(e->type) && !isSampler(e->type) && e->viewDimension != b.entry.viewDimension))
-            return invalid(ErrorCode::LayoutMismatch, cat(what, "; ", layout.describe(), " of ", object, " says it is a ",
-                                                          name(e->viewDimension), ' ', name(e->type), '.'));
+            return invalid(ErrorCode::LayoutMismatch,
+                           cat(what, "; ", layout.describe(), " of ", object, " says it is a ", name(e->viewDimension),
+                               ' ', name(e->type), '.'));
         if (!contains(e->visibility, stage.stage))
             return invalid(ErrorCode::LayoutMismatch, cat(what, "; in ", layout.describe(), " of ", object,
                                                           " it is not visible to the ", name(stage.stage), " stage."));
     }
     if (reflection.pushConstantsSize > layout.pushConstantsSize)
-        return invalid(ErrorCode::PushConstantRange,
-                       cat(stage.module->describe(), " reads ", reflection.pushConstantsSize, " bytes of push constants; ",
-                           layout.describe(), " of ", object, " has ", layout.pushConstantsSize, '.'));
+        return invalid(
+            ErrorCode::PushConstantRange,
+            cat(stage.module->describe(), " reads ", reflection.pushConstantsSize, " bytes of push constants; ",
+                layout.describe(), " of ", object, " has ", layout.pushConstantsSize, '.'));
     return {};
 }
 
@@ -174,8 +182,9 @@ Result<std::shared_ptr<PipelineLayoutObject>> layoutFor(const std::shared_ptr<De
         }
     }
     if (!groups.empty() && groups.rbegin()->first >= device->info.limits.maxBindGroups)
-        return invalid(ErrorCode::OutOfRange, cat(object, " uses group ", groups.rbegin()->first, "; the device allows ",
-                                                  device->info.limits.maxBindGroups, " groups."));
+        return invalid(ErrorCode::OutOfRange,
+                       cat(object, " uses group ", groups.rbegin()->first, "; the device allows ",
+                           device->info.limits.maxBindGroups, " groups."));
     std::vector<std::shared_ptr<BindGroupLayoutObject>> sets(groups.empty() ? 0 : groups.rbegin()->first + 1);
     for (const auto& [group, entries] : groups) {
         BindGroupLayoutDescriptor descriptor{.label = cat(label, " group ", group)};

@@ -6,7 +6,8 @@ namespace detail {
 
 QuerySetObject::~QuerySetObject() {
     if (handle == VK_NULL_HANDLE) return;
-    device->bury(lastUse, [pool = handle](DeviceObject& d) { d.functions.vkDestroyQueryPool(d.handle, pool, nullptr); });
+    device->bury(lastUse,
+                 [pool = handle](DeviceObject& d) { d.functions.vkDestroyQueryPool(d.handle, pool, nullptr); });
 }
 
 namespace {
@@ -18,7 +19,8 @@ Result<QuerySet> makeQuerySet(const std::shared_ptr<DeviceObject>& device, const
         return fail(ErrorKind::Unsupported, ErrorCode::MissingFeature,
                     cat(object->describe(), " needs Feature::", name(feature), ", which [Device \"", device->label,
                         "\"] was not granted."));
-    if (d.count == 0) return invalid(ErrorCode::InvalidSize, cat(object->describe(), " has no queries; 1 is the least."));
+    if (d.count == 0)
+        return invalid(ErrorCode::InvalidSize, cat(object->describe(), " has no queries; 1 is the least."));
     VkQueryPoolCreateInfo info = {VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO};
     info.queryType = d.type == QueryType::Timestamp ? VK_QUERY_TYPE_TIMESTAMP : VK_QUERY_TYPE_PIPELINE_STATISTICS;
     info.queryCount = d.count;
@@ -42,7 +44,11 @@ Result<QuerySet> Device::createQuerySet(const QuerySetDescriptor& descriptor) co
     if (auto ok = detail::needHandle(*this, "the device"); !ok) return detail::forward(ok.error());
     return object_->reported(detail::makeQuerySet(object_, descriptor));
 }
-QueryType QuerySet::type() const { return object_->descriptor.type; }
-std::uint32_t QuerySet::count() const { return object_->descriptor.count; }
+QueryType QuerySet::type() const {
+    return object_->descriptor.type;
+}
+std::uint32_t QuerySet::count() const {
+    return object_->descriptor.count;
+}
 
 }  // namespace pelage::rhi

@@ -96,7 +96,8 @@ Result<Submission> submitLocked(DeviceObject& device, std::span<const CommandBuf
     }
     VkCommandBufferSubmitInfo commands = {VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
     commands.commandBuffer = slot->commands;
-    VkSemaphoreSubmitInfo signals[2] = {{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO}, {VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO}};
+    VkSemaphoreSubmitInfo signals[2] = {{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO},
+                                        {VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO}};
     signals[0].semaphore = q.timeline;
     signals[0].value = value;
     signals[0].stageMask = signals[1].stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
@@ -143,7 +144,9 @@ Result<Submission> Queue::submit(std::span<const CommandBuffer> commandBuffers) 
     return device_->reported(std::move(result));
 }
 
-bool Queue::isDone(Submission submission) const { return !device_ || device_->completed() >= submission.value; }
+bool Queue::isDone(Submission submission) const {
+    return !device_ || device_->completed() >= submission.value;
+}
 
 Result<bool> Queue::wait(Submission submission, std::uint64_t timeoutNs) const {
     if (!device_) return detail::invalid(ErrorCode::InvalidHandle, "wait() was called on an empty queue.");

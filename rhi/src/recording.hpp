@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The packet stream: what an encoder writes and a submission replays. Packets point to objects that the recording keeps.
+// The packet stream: what an encoder writes and a submission replays. Packets point to objects that the recording
+// keeps.
 #pragma once
 
 #include <unordered_set>
@@ -28,40 +29,83 @@ struct RenderPassPacket {
 
 namespace packet {
 /// The boundary of a usage scope: the uses first … first + count - 1 are about to happen.
-struct Scope { std::uint32_t first = 0, count = 0; };
-struct BeginRendering { std::uint32_t pass = 0; };
-struct EndRendering { std::uint32_t pass = 0; };
-struct BeginLabel { std::uint32_t text = 0; };
+struct Scope {
+    std::uint32_t first = 0, count = 0;
+};
+struct BeginRendering {
+    std::uint32_t pass = 0;
+};
+struct EndRendering {
+    std::uint32_t pass = 0;
+};
+struct BeginLabel {
+    std::uint32_t text = 0;
+};
 struct EndLabel {};
-struct BindPipeline { PipelineObject* pipeline = nullptr; VkPipelineBindPoint point = {}; };
+struct BindPipeline {
+    PipelineObject* pipeline = nullptr;
+    VkPipelineBindPoint point = {};
+};
 struct BindSet {
     BindGroupObject* group = nullptr;
     PipelineLayoutObject* layout = nullptr;
     VkPipelineBindPoint point = {};
     std::uint32_t index = 0, firstOffset = 0, offsetCount = 0;
 };
-struct Push { PipelineLayoutObject* layout = nullptr; std::uint32_t first = 0, size = 0; };
-struct BindVertexBuffer { BufferObject* buffer = nullptr; std::uint64_t offset = 0; std::uint32_t slot = 0; };
-struct BindIndexBuffer { BufferObject* buffer = nullptr; std::uint64_t offset = 0; VkIndexType type = {}; };
-struct Viewport { VkViewport value = {}; };
-struct Scissor { VkRect2D value = {}; };
-struct LineWidth { float value = 1; };
-struct Draw { std::uint32_t vertices = 0, instances = 0, firstVertex = 0, firstInstance = 0; };
+struct Push {
+    PipelineLayoutObject* layout = nullptr;
+    std::uint32_t first = 0, size = 0;
+};
+struct BindVertexBuffer {
+    BufferObject* buffer = nullptr;
+    std::uint64_t offset = 0;
+    std::uint32_t slot = 0;
+};
+struct BindIndexBuffer {
+    BufferObject* buffer = nullptr;
+    std::uint64_t offset = 0;
+    VkIndexType type = {};
+};
+struct Viewport {
+    VkViewport value = {};
+};
+struct Scissor {
+    VkRect2D value = {};
+};
+struct LineWidth {
+    float value = 1;
+};
+struct Draw {
+    std::uint32_t vertices = 0, instances = 0, firstVertex = 0, firstInstance = 0;
+};
 struct DrawIndexed {
     std::uint32_t indices = 0, instances = 0, firstIndex = 0;
     std::int32_t baseVertex = 0;
     std::uint32_t firstInstance = 0;
 };
-struct Dispatch { std::uint32_t x = 0, y = 0, z = 0; };
-struct CopyBuffer { BufferObject* source = nullptr; BufferObject* destination = nullptr; VkBufferCopy region = {}; };
+struct Dispatch {
+    std::uint32_t x = 0, y = 0, z = 0;
+};
+struct CopyBuffer {
+    BufferObject* source = nullptr;
+    BufferObject* destination = nullptr;
+    VkBufferCopy region = {};
+};
 struct CopyBufferImage {  // either way
     BufferObject* buffer = nullptr;
     TextureObject* texture = nullptr;
     std::uint32_t region = 0;
     bool toImage = true;
 };
-struct CopyImage { TextureObject* source = nullptr; TextureObject* destination = nullptr; std::uint32_t region = 0; };
-struct Fill { BufferObject* buffer = nullptr; std::uint64_t offset = 0, size = 0; };
+struct CopyImage {
+    TextureObject* source = nullptr;
+    TextureObject* destination = nullptr;
+    std::uint32_t region = 0;
+};
+struct Fill {
+    BufferObject* buffer = nullptr;
+    std::uint64_t offset = 0, size = 0;
+};
 struct Timestamp {
     QuerySetObject* set = nullptr;
     std::uint32_t index = 0;
@@ -83,12 +127,12 @@ struct Upload {
 };
 }  // namespace packet
 
-using Packet = std::variant<packet::Scope, packet::BeginRendering, packet::EndRendering, packet::BeginLabel,
-                            packet::EndLabel, packet::BindPipeline, packet::BindSet, packet::Push,
-                            packet::BindVertexBuffer, packet::BindIndexBuffer, packet::Viewport, packet::Scissor,
-                            packet::LineWidth, packet::Draw, packet::DrawIndexed, packet::Dispatch, packet::CopyBuffer,
-                            packet::CopyBufferImage, packet::CopyImage, packet::Fill, packet::Timestamp,
-                            packet::ResolveQueries, packet::Upload>;
+using Packet =
+    std::variant<packet::Scope, packet::BeginRendering, packet::EndRendering, packet::BeginLabel, packet::EndLabel,
+                 packet::BindPipeline, packet::BindSet, packet::Push, packet::BindVertexBuffer, packet::BindIndexBuffer,
+                 packet::Viewport, packet::Scissor, packet::LineWidth, packet::Draw, packet::DrawIndexed,
+                 packet::Dispatch, packet::CopyBuffer, packet::CopyBufferImage, packet::CopyImage, packet::Fill,
+                 packet::Timestamp, packet::ResolveQueries, packet::Upload>;
 
 struct Recording {
     std::string label;
@@ -111,7 +155,10 @@ struct Recording {
         if (referenced.insert(object.get()).second) references.push_back(object);
     }
     template <class H>
-    void keep(const H& handle) requires requires { handle.shared(); } {
+    void keep(const H& handle) requires requires {
+        handle.shared();
+    }
+    {
         if (!referenced.contains(handle.get())) keep(std::shared_ptr<Object>(handle.shared()));
     }
 };

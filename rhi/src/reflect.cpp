@@ -21,16 +21,20 @@ struct Refused {
 
 ScalarType scalarOf(const SPIRType& type) {
     switch (type.basetype) {
-        case SPIRType::Boolean: return ScalarType::Bool;
+        case SPIRType::Boolean:
+            return ScalarType::Bool;
         case SPIRType::SByte:
         case SPIRType::Short:
         case SPIRType::Int:
-        case SPIRType::Int64: return ScalarType::Int;
+        case SPIRType::Int64:
+            return ScalarType::Int;
         case SPIRType::UByte:
         case SPIRType::UShort:
         case SPIRType::UInt:
-        case SPIRType::UInt64: return ScalarType::Uint;
-        default: return ScalarType::Float;
+        case SPIRType::UInt64:
+            return ScalarType::Uint;
+        default:
+            return ScalarType::Float;
     }
 }
 
@@ -54,8 +58,7 @@ std::vector<BlockMember> membersOf(const Compiler& compiler, const SPIRType& blo
 
 std::uint32_t blockSize(const Compiler& compiler, const SPIRType& block) {
     // A run-time array at the end counts for nothing: a buffer without elements is not an error.
-    return block.member_types.empty() ? 0
-                                      : static_cast<std::uint32_t>(compiler.get_declared_struct_size(block));
+    return block.member_types.empty() ? 0 : static_cast<std::uint32_t>(compiler.get_declared_struct_size(block));
 }
 
 TextureViewDimension dimensionOf(const SPIRType& type, const std::string& variable) {
@@ -124,7 +127,7 @@ private:
         const auto& type = compiler_.get_type(r.type_id);
         if (type.image.dim == spv::DimBuffer || type.image.dim == spv::DimSubpassData)
             throw Refused{cat("declares \"", r.name, "\", a texel buffer or input attachment")};
-        BindingType kind = type.image.ms       ? BindingType::MultisampledTexture
+        BindingType kind = type.image.ms      ? BindingType::MultisampledTexture
                            : type.image.depth ? BindingType::DepthTexture
                                               : BindingType::SampledTexture;
         if (storage) {
@@ -188,10 +191,14 @@ private:
 
 ShaderStage stageOf(spv::ExecutionModel model) {
     switch (model) {
-        case spv::ExecutionModelVertex: return ShaderStage::Vertex;
-        case spv::ExecutionModelFragment: return ShaderStage::Fragment;
-        case spv::ExecutionModelGLCompute: return ShaderStage::Compute;
-        default: throw Refused{"has an entry point that is no vertex, fragment or compute shader"};
+        case spv::ExecutionModelVertex:
+            return ShaderStage::Vertex;
+        case spv::ExecutionModelFragment:
+            return ShaderStage::Fragment;
+        case spv::ExecutionModelGLCompute:
+            return ShaderStage::Compute;
+        default:
+            throw Refused{"has an entry point that is no vertex, fragment or compute shader"};
     }
 }
 
@@ -211,9 +218,9 @@ bool wellFormed(const std::vector<std::uint32_t>& code) {
 
 Result<ReflectedModule> reflect(const std::vector<std::uint32_t>& code, const std::string& object) {
     if (!wellFormed(code))
-        return invalid(ErrorCode::ShaderInvalid,
-                       cat(object, " is not SPIR-V: ", code.size(), " words that do not start with the header 0x07230203 "
-                                                                    "or are cut short."));
+        return invalid(ErrorCode::ShaderInvalid, cat(object, " is not SPIR-V: ", code.size(),
+                                                     " words that do not start with the header 0x07230203 "
+                                                     "or are cut short."));
     try {
         const Compiler compiler(code);
         const auto entries = compiler.get_entry_points_and_stages();

@@ -28,9 +28,9 @@ Result<VertexInput> vertexInput(const RenderPipelineDescriptor& d, RenderPipelin
         for (const auto& a : buffer.attributes) {
             const std::uint32_t end = a.offset + vertexFormatBytes(a.format);
             if (buffer.arrayStride != 0 && end > buffer.arrayStride)
-                return invalid(ErrorCode::OutOfRange, cat(object.describe(), " vertex buffer ", slot, " has stride ",
-                                                          buffer.arrayStride, "; its attribute at location ",
-                                                          a.shaderLocation, " ends at byte ", end, '.'));
+                return invalid(ErrorCode::OutOfRange,
+                               cat(object.describe(), " vertex buffer ", slot, " has stride ", buffer.arrayStride,
+                                   "; its attribute at location ", a.shaderLocation, " ends at byte ", end, '.'));
             const auto input = std::find_if(inputs.begin(), inputs.end(),
                                             [&](const auto& v) { return v.location == a.shaderLocation; });
             if (input == inputs.end()) continue;
@@ -66,8 +66,9 @@ Result<std::vector<VkPipelineColorBlendAttachmentState>> blendStates(const Devic
                                                                      const Stage* fragment) {
     std::vector<VkPipelineColorBlendAttachmentState> states;
     if (d.targets.size() > device.info.limits.maxColorAttachments)
-        return invalid(ErrorCode::OutOfRange, cat(object.describe(), " has ", d.targets.size(),
-                                                  " targets; the device allows ", device.info.limits.maxColorAttachments, '.'));
+        return invalid(ErrorCode::OutOfRange,
+                       cat(object.describe(), " has ", d.targets.size(), " targets; the device allows ",
+                           device.info.limits.maxColorAttachments, '.'));
     for (std::uint32_t i = 0; i < d.targets.size(); ++i) {
         const auto& t = d.targets[i];
         VkPipelineColorBlendAttachmentState s = {};
@@ -75,10 +76,12 @@ Result<std::vector<VkPipelineColorBlendAttachmentState>> blendStates(const Devic
         const auto target = cat(object.describe(), " target ", i, " (", format.name, ')');
         if (t.format != TextureFormat::Undefined) {
             if (isDepth(t.format))
-                return invalid(ErrorCode::TargetMismatch, cat(target, " is a depth format; a colour format is needed."));
+                return invalid(ErrorCode::TargetMismatch,
+                               cat(target, " is a depth format; a colour format is needed."));
             s.colorWriteMask = static_cast<VkColorComponentFlags>(t.writeMask);
             if (t.blend && format.numeric != NumericClass::Float)
-                return invalid(ErrorCode::FormatUnsupported, cat(target, " has whole numbers, which cannot be blended."));
+                return invalid(ErrorCode::FormatUnsupported,
+                               cat(target, " has whole numbers, which cannot be blended."));
             const ReflectedVariable* output = nullptr;
             if (fragment != nullptr)
                 for (const auto& o : fragment->module->reflection.outputs)
@@ -106,7 +109,8 @@ Result<std::vector<VkPipelineColorBlendAttachmentState>> blendStates(const Devic
     return states;
 }
 
-std::string keyOf(const RenderPipelineDescriptor& d, std::span<const Stage> stages, const PipelineLayoutObject& layout) {
+std::string keyOf(const RenderPipelineDescriptor& d, std::span<const Stage> stages,
+                  const PipelineLayoutObject& layout) {
     std::string key = cat("render;", layout.id, ';');
     for (const auto& stage : stages) key += keyOf(stage);
     const auto put = [&](auto... values) { ((key += cat(+values, ',')), ...); };
@@ -137,10 +141,12 @@ std::string keyOf(const RenderPipelineDescriptor& d, std::span<const Stage> stag
     return key;
 }
 
-Result<void> checkState(const DeviceObject& device, const RenderPipelineDescriptor& d, const RenderPipelineObject& object) {
+Result<void> checkState(const DeviceObject& device, const RenderPipelineDescriptor& d,
+                        const RenderPipelineObject& object) {
     const auto count = d.multisample.count;
     const auto attachments = [&](TextureFormat format) -> Result<void> {
-        if (format == TextureFormat::Undefined || Device(object.device).supports(format, TextureUsage::RenderAttachment, count))
+        if (format == TextureFormat::Undefined ||
+            Device(object.device).supports(format, TextureUsage::RenderAttachment, count))
             return {};
         const bool alone = Device(object.device).supports(format, TextureUsage::RenderAttachment);
         return fail(alone ? ErrorKind::Validation : ErrorKind::Unsupported,
@@ -162,7 +168,8 @@ Result<void> checkState(const DeviceObject& device, const RenderPipelineDescript
         return invalid(ErrorCode::SampleCount,
                        cat(object.describe(), " uses alpha to coverage with 1 sample; more than 1 is needed."));
     if (d.multisample.alphaToCoverageEnabled && !d.fragment)
-        return invalid(ErrorCode::TargetMismatch, cat(object.describe(), " uses alpha to coverage and has no fragment stage."));
+        return invalid(ErrorCode::TargetMismatch,
+                       cat(object.describe(), " uses alpha to coverage and has no fragment stage."));
     if (d.primitive.unclippedDepth && !device.depthClamp)
         return fail(ErrorKind::Unsupported, ErrorCode::MissingFeature,
                     cat(object.describe(), " asks for unclipped depth, which the device does not have."));
@@ -191,13 +198,14 @@ Result<void> build(const RenderPipelineDescriptor& d, RenderPipelineObject& obje
         VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_LINE_STATE_CREATE_INFO_EXT};
     lines.lineRasterizationMode = VK_LINE_RASTERIZATION_MODE_RECTANGULAR_EXT;  // the right area under MSAA
     VkPipelineRasterizationStateCreateInfo raster = {VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO};
-    const bool isLine = d.primitive.topology == PrimitiveTopology::LineList ||
-                        d.primitive.topology == PrimitiveTopology::LineStrip;
+    const bool isLine =
+        d.primitive.topology == PrimitiveTopology::LineList || d.primitive.topology == PrimitiveTopology::LineStrip;
     if (isLine && device.rectangularLines) raster.pNext = &lines;
     raster.depthClampEnable = d.primitive.unclippedDepth;
     raster.cullMode = toVk(d.primitive.cullMode);
     // The viewport is flipped, so windings mean on screen what they mean in clip space with +Y up.
-    raster.frontFace = d.primitive.frontFace == FrontFace::CCW ? VK_FRONT_FACE_COUNTER_CLOCKWISE : VK_FRONT_FACE_CLOCKWISE;
+    raster.frontFace =
+        d.primitive.frontFace == FrontFace::CCW ? VK_FRONT_FACE_COUNTER_CLOCKWISE : VK_FRONT_FACE_CLOCKWISE;
     raster.lineWidth = 1;
     VkPipelineMultisampleStateCreateInfo multisample = {VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO};
     multisample.rasterizationSamples = static_cast<VkSampleCountFlagBits>(d.multisample.count);
@@ -245,7 +253,8 @@ Result<void> build(const RenderPipelineDescriptor& d, RenderPipelineObject& obje
     return {};
 }
 
-Result<RenderPipeline> makeRenderPipeline(const std::shared_ptr<DeviceObject>& device, const RenderPipelineDescriptor& d) {
+Result<RenderPipeline> makeRenderPipeline(const std::shared_ptr<DeviceObject>& device,
+                                          const RenderPipelineDescriptor& d) {
     auto object = std::make_shared<RenderPipelineObject>(device, "RenderPipeline", d.label);
     std::vector<Stage> stages;
     auto vertex = makeStage(*device, d.vertex, ShaderStage::Vertex, object->describe());
@@ -283,7 +292,9 @@ Result<RenderPipeline> Device::createRenderPipeline(const RenderPipelineDescript
     if (auto ok = detail::needHandle(*this, "the device"); !ok) return detail::forward(ok.error());
     return object_->reported(detail::makeRenderPipeline(object_, descriptor));
 }
-const std::string& RenderPipeline::label() const { return object_->label; }
+const std::string& RenderPipeline::label() const {
+    return object_->label;
+}
 BindGroupLayout RenderPipeline::bindGroupLayout(std::uint32_t group) const {
     if (!object_ || group >= object_->layout->sets.size()) return {};
     const auto& set = object_->layout->sets[group];

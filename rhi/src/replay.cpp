@@ -105,8 +105,8 @@ void Replay::play(const P& p) {
             } else {
                 auto& buffer = static_cast<BufferObject&>(*use.object);
                 batch_.use(buffer.state, use.access);
-                hostReads_ = hostReads_ ||
-                             (isWrite(use.kind) && contains(buffer.descriptor.usage, BufferUsage::MapRead));
+                hostReads_ =
+                    hostReads_ || (isWrite(use.kind) && contains(buffer.descriptor.usage, BufferUsage::MapRead));
             }
         }
         if (timestampOpen_) batch_.full();

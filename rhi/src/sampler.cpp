@@ -8,7 +8,8 @@ namespace detail {
 
 SamplerObject::~SamplerObject() {
     if (handle == VK_NULL_HANDLE) return;
-    device->bury(lastUse, [sampler = handle](DeviceObject& d) { d.functions.vkDestroySampler(d.handle, sampler, nullptr); });
+    device->bury(lastUse,
+                 [sampler = handle](DeviceObject& d) { d.functions.vkDestroySampler(d.handle, sampler, nullptr); });
 }
 
 namespace {
@@ -16,8 +17,9 @@ Result<Sampler> makeSampler(const std::shared_ptr<DeviceObject>& device, const S
     auto object = std::make_shared<SamplerObject>(device, "Sampler", d.label);
     object->descriptor = d;
     if (!(d.lodMinClamp >= 0 && d.lodMaxClamp >= d.lodMinClamp))
-        return invalid(ErrorCode::OutOfRange, cat(object->describe(), " clamps its level of detail to ", d.lodMinClamp,
-                                                  " … ", d.lodMaxClamp, "; 0 <= lodMinClamp <= lodMaxClamp is needed."));
+        return invalid(ErrorCode::OutOfRange,
+                       cat(object->describe(), " clamps its level of detail to ", d.lodMinClamp, " … ", d.lodMaxClamp,
+                           "; 0 <= lodMinClamp <= lodMaxClamp is needed."));
     if (!(d.maxAnisotropy >= 1))
         return invalid(ErrorCode::OutOfRange,
                        cat(object->describe(), " has maxAnisotropy ", d.maxAnisotropy, "; at least 1 is needed."));
@@ -31,8 +33,8 @@ Result<Sampler> makeSampler(const std::shared_ptr<DeviceObject>& device, const S
     info.addressModeW = toVk(d.addressModeW);
     info.minLod = d.lodMinClamp;
     info.maxLod = d.lodMaxClamp;
-    const bool one = d.addressModeU == AddressMode::ClampToBorderOne || d.addressModeV == AddressMode::ClampToBorderOne ||
-                     d.addressModeW == AddressMode::ClampToBorderOne;
+    const bool one = d.addressModeU == AddressMode::ClampToBorderOne ||
+                     d.addressModeV == AddressMode::ClampToBorderOne || d.addressModeW == AddressMode::ClampToBorderOne;
     info.borderColor = one ? VK_BORDER_COLOR_FLOAT_OPAQUE_WHITE : VK_BORDER_COLOR_FLOAT_TRANSPARENT_BLACK;
     info.compareEnable = d.compare != CompareFunction::Undefined;
     info.compareOp = toVk(d.compare);
@@ -51,6 +53,8 @@ Result<Sampler> Device::createSampler(const SamplerDescriptor& descriptor) const
     if (auto ok = detail::needHandle(*this, "the device"); !ok) return detail::forward(ok.error());
     return object_->reported(detail::makeSampler(object_, descriptor));
 }
-const std::string& Sampler::label() const { return object_->label; }
+const std::string& Sampler::label() const {
+    return object_->label;
+}
 
 }  // namespace pelage::rhi

@@ -48,8 +48,14 @@ Result<ShaderModule> Device::createShaderModule(const ShaderModuleDescriptor& de
     if (auto ok = detail::needHandle(*this, "the device"); !ok) return detail::forward(ok.error());
     return object_->reported(detail::makeShaderModule(object_, descriptor));
 }
-const std::string& ShaderModule::label() const { return object_->label; }
-const ShaderReflection& ShaderModule::reflection() const { return object_->reflection; }
-const std::vector<std::uint32_t>& ShaderModule::code() const { return object_->code; }
+const std::string& ShaderModule::label() const {
+    return object_->label;
+}
+const ShaderReflection& ShaderModule::reflection() const {
+    return object_->reflection;
+}
+const std::vector<std::uint32_t>& ShaderModule::code() const {
+    return object_->code;
+}
 
 }  // namespace pelage::rhi

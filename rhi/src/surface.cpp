@@ -56,14 +56,15 @@ std::optional<VkSurfaceFormatKHR> chooseFormat(const InstanceObject& instance, V
     std::vector<VkSurfaceFormatKHR> formats(count);
     instance.vk.vkGetPhysicalDeviceSurfaceFormatsKHR(adapter, surface, &count, formats.data());
     formats.resize(count);
-    for (const auto wanted : {VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_B8G8R8A8_SRGB,
-                              VK_FORMAT_R8G8B8A8_SRGB})
+    for (const auto wanted :
+         {VK_FORMAT_B8G8R8A8_UNORM, VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_B8G8R8A8_SRGB, VK_FORMAT_R8G8B8A8_SRGB})
         for (const auto& f : formats)
             if (f.format == wanted && f.colorSpace == VK_COLOR_SPACE_SRGB_NONLINEAR_KHR) return f;
     return std::nullopt;
 }
 
-VkPresentModeKHR chooseMode(const InstanceObject& instance, VkPhysicalDevice adapter, VkSurfaceKHR surface, bool vsync) {
+VkPresentModeKHR chooseMode(const InstanceObject& instance, VkPhysicalDevice adapter, VkSurfaceKHR surface,
+                            bool vsync) {
     if (vsync) return VK_PRESENT_MODE_FIFO_KHR;  // always there
     std::uint32_t count = 0;
     instance.vk.vkGetPhysicalDeviceSurfacePresentModesKHR(adapter, surface, &count, nullptr);
@@ -85,10 +86,12 @@ Result<void> SurfaceObject::configure(const std::shared_ptr<DeviceObject>& owner
     if (adapter.instance != instance || !supports(adapter) || device->functions.vkCreateSwapchainKHR == nullptr)
         return surfaceError(cat("[Device \"", device->label, "\"] cannot present to this surface."));
     VkSurfaceCapabilitiesKHR caps = {};
-    if (const auto r = instance->vk.vkGetPhysicalDeviceSurfaceCapabilitiesKHR(adapter.handle, handle, &caps); r != VK_SUCCESS)
+    if (const auto r = instance->vk.vkGetPhysicalDeviceSurfaceCapabilitiesKHR(adapter.handle, handle, &caps);
+        r != VK_SUCCESS)
         return forward(vulkanError(r, "vkGetPhysicalDeviceSurfaceCapabilitiesKHR", "the surface"));
     const auto chosen = chooseFormat(*instance, adapter.handle, handle);
-    if (!chosen) return surfaceError("The surface offers none of the formats BGRA8Unorm, RGBA8Unorm and their sRGB forms.");
+    if (!chosen)
+        return surfaceError("The surface offers none of the formats BGRA8Unorm, RGBA8Unorm and their sRGB forms.");
     format = fromVk(chosen->format);
     auto& size = configuration.size;
     size.depthOrArrayLayers = 1;
@@ -98,7 +101,8 @@ Result<void> SurfaceObject::configure(const std::shared_ptr<DeviceObject>& owner
     }
     size.width = std::clamp(size.width, caps.minImageExtent.width, std::max(caps.maxImageExtent.width, 1U));
     size.height = std::clamp(size.height, caps.minImageExtent.height, std::max(caps.maxImageExtent.height, 1U));
-    if (size.width == 0 || size.height == 0) return surfaceError("The window has no area; configure it when it has one.");
+    if (size.width == 0 || size.height == 0)
+        return surfaceError("The window has no area; configure it when it has one.");
     const VkImageUsageFlags usage = toVk(wanted.usage, format);
     if ((usage & ~caps.supportedUsageFlags) != 0)
         return surfaceError(cat("The surface's textures cannot be used as ", usageNames(wanted.usage), '.'));
@@ -150,7 +154,8 @@ Result<Texture> SurfaceObject::acquire() {
     if (current) return Texture(images[*current].texture);
     if (outdated) return Texture();
     std::uint32_t index = 0;
-    const auto r = device->functions.vkAcquireNextImageKHR(device->handle, swapchain, ~0ULL, spare, VK_NULL_HANDLE, &index);
+    const auto r =
+        device->functions.vkAcquireNextImageKHR(device->handle, swapchain, ~0ULL, spare, VK_NULL_HANDLE, &index);
     if (r == VK_ERROR_OUT_OF_DATE_KHR) {
         outdated = true;
         return Texture();
@@ -186,8 +191,10 @@ Result<bool> SurfaceObject::present() {
     info.pSwapchains = &swapchain;
     info.pImageIndices = &index;
     const auto r = device->functions.vkQueuePresentKHR(device->queue.handle, &info);
-    if (r == VK_ERROR_OUT_OF_DATE_KHR || r == VK_SUBOPTIMAL_KHR) outdated = true;
-    else if (r != VK_SUCCESS) return forward(vulkanError(r, "vkQueuePresentKHR", "the surface"));
+    if (r == VK_ERROR_OUT_OF_DATE_KHR || r == VK_SUBOPTIMAL_KHR)
+        outdated = true;
+    else if (r != VK_SUCCESS)
+        return forward(vulkanError(r, "vkQueuePresentKHR", "the surface"));
     return !outdated;
 }
 
@@ -198,8 +205,12 @@ Result<void> Surface::configure(const Device& device, const SurfaceConfiguration
     if (auto ok = detail::needHandle(device, "the surface's device"); !ok) return ok;
     return device.get()->reported(object_->configure(device.shared(), configuration));
 }
-TextureFormat Surface::format() const { return object_ ? object_->format : TextureFormat::Undefined; }
-Extent3D Surface::size() const { return object_ ? object_->configuration.size : Extent3D{}; }
+TextureFormat Surface::format() const {
+    return object_ ? object_->format : TextureFormat::Undefined;
+}
+Extent3D Surface::size() const {
+    return object_ ? object_->configuration.size : Extent3D{};
+}
 Result<Texture> Surface::getCurrentTexture() const {
     if (auto ok = detail::needHandle(*this, "the surface"); !ok) return detail::forward(ok.error());
     auto result = object_->acquire();
@@ -213,14 +224,24 @@ Result<bool> Surface::present() const {
 
 namespace vulkan {
 
-VkInstance instance(const Instance& handle) { return handle ? handle.get()->handle : VK_NULL_HANDLE; }
+VkInstance instance(const Instance& handle) {
+    return handle ? handle.get()->handle : VK_NULL_HANDLE;
+}
 PFN_vkGetInstanceProcAddr getInstanceProcAddr(const Instance& handle) {
     return handle ? handle.get()->getProcAddr : nullptr;
 }
-VkPhysicalDevice physicalDevice(const Adapter& handle) { return handle ? handle.get()->handle : VK_NULL_HANDLE; }
-VkDevice device(const Device& handle) { return handle ? handle.get()->handle : VK_NULL_HANDLE; }
-VkImage image(const Texture& handle) { return handle ? handle.get()->handle : VK_NULL_HANDLE; }
-VkBuffer buffer(const Buffer& handle) { return handle ? handle.get()->handle : VK_NULL_HANDLE; }
+VkPhysicalDevice physicalDevice(const Adapter& handle) {
+    return handle ? handle.get()->handle : VK_NULL_HANDLE;
+}
+VkDevice device(const Device& handle) {
+    return handle ? handle.get()->handle : VK_NULL_HANDLE;
+}
+VkImage image(const Texture& handle) {
+    return handle ? handle.get()->handle : VK_NULL_HANDLE;
+}
+VkBuffer buffer(const Buffer& handle) {
+    return handle ? handle.get()->handle : VK_NULL_HANDLE;
+}
 
 Surface adoptSurface(const Instance& owner, VkSurfaceKHR surface) {
     if (!owner || surface == VK_NULL_HANDLE) return {};

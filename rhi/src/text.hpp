@@ -25,7 +25,9 @@ inline tl::unexpected<Error> fail(ErrorKind kind, ErrorCode code, std::string me
 inline tl::unexpected<Error> invalid(ErrorCode code, std::string message) {
     return fail(ErrorKind::Validation, code, std::move(message));
 }
-inline tl::unexpected<Error> forward(Error error) { return tl::unexpected<Error>(std::move(error)); }
+inline tl::unexpected<Error> forward(Error error) {
+    return tl::unexpected<Error>(std::move(error));
+}
 
 const char* resultName(VkResult result);
 /// The error for a Vulkan call that failed: names the call and the object it was made for.

@@ -18,7 +18,8 @@ TextureObject::~TextureObject() {
 
 TextureViewObject::~TextureViewObject() {
     if (handle == VK_NULL_HANDLE) return;
-    device->bury(lastUse, [view = handle](DeviceObject& d) { d.functions.vkDestroyImageView(d.handle, view, nullptr); });
+    device->bury(lastUse,
+                 [view = handle](DeviceObject& d) { d.functions.vkDestroyImageView(d.handle, view, nullptr); });
 }
 
 Extent3D TextureObject::mipSize(std::uint32_t mip) const {
@@ -46,8 +47,8 @@ Result<void> checkTexture(const DeviceObject& device, const TextureObject& objec
     if (!volume && d.size.depthOrArrayLayers > limits.maxTextureArrayLayers)
         return bad(ErrorCode::InvalidSize, " has ", d.size.depthOrArrayLayers,
                    " layers, which is above the device's limit of ", limits.maxTextureArrayLayers, '.');
-    const auto levels = static_cast<std::uint32_t>(
-        std::bit_width(std::max(largest, volume ? d.size.depthOrArrayLayers : 1U)));
+    const auto levels =
+        static_cast<std::uint32_t>(std::bit_width(std::max(largest, volume ? d.size.depthOrArrayLayers : 1U)));
     if (d.mipLevelCount == 0 || d.mipLevelCount > levels)
         return bad(ErrorCode::InvalidSize, " has ", d.mipLevelCount, " mip levels; its size allows 1 to ", levels, '.');
     if (d.sampleCount > 1 && (d.mipLevelCount > 1 || volume))
@@ -75,7 +76,8 @@ Result<void> checkTexture(const DeviceObject& device, const TextureObject& objec
         std::string counts;
         for (std::uint32_t n = 1; n <= 64; n <<= 1)
             if ((p.sampleCounts & n) != 0) counts += cat(counts.empty() ? "" : ", ", n);
-        return bad(ErrorCode::SampleCount, " has ", d.sampleCount, " samples; ", name(d.format), " allows ", counts, '.');
+        return bad(ErrorCode::SampleCount, " has ", d.sampleCount, " samples; ", name(d.format), " allows ", counts,
+                   '.');
     }
     if (d.size.width > p.maxExtent.width || d.size.height > p.maxExtent.height ||
         (volume && d.size.depthOrArrayLayers > p.maxExtent.depth))
@@ -142,7 +144,7 @@ Result<TextureViewDescriptor> completeView(const TextureObject& texture, Texture
         return invalid(code, cat("[TextureView \"", d.label, "\"] of ", texture.describe(), parts...));
     };
     if (!d.dimension)
-        d.dimension = t.dimension == TextureDimension::E3D      ? TextureViewDimension::E3D
+        d.dimension = t.dimension == TextureDimension::E3D                      ? TextureViewDimension::E3D
                       : layers - d.baseArrayLayer > 1 && d.arrayLayerCount != 1 ? TextureViewDimension::E2DArray
                                                                                 : TextureViewDimension::E2D;
     if (d.baseMipLevel >= t.mipLevelCount || d.baseArrayLayer >= layers)
@@ -221,16 +223,26 @@ Result<Texture> Device::createTexture(const TextureDescriptor& descriptor) const
     return object_->reported(detail::makeTexture(object_, descriptor));
 }
 
-const std::string& Texture::label() const { return object_->label; }
-const TextureDescriptor& Texture::descriptor() const { return object_->descriptor; }
-std::uint64_t Texture::memoryBytes() const { return object_->allocation.size; }
+const std::string& Texture::label() const {
+    return object_->label;
+}
+const TextureDescriptor& Texture::descriptor() const {
+    return object_->descriptor;
+}
+std::uint64_t Texture::memoryBytes() const {
+    return object_->allocation.size;
+}
 Result<TextureView> Texture::createView(const TextureViewDescriptor& descriptor) const {
     if (auto ok = detail::needHandle(*this, "the texture"); !ok) return detail::forward(ok.error());
     return object_->device->reported(
         detail::makeView(object_, descriptor).map([](auto view) { return TextureView(std::move(view)); }));
 }
 
-Texture TextureView::texture() const { return Texture(object_->texture); }
-const TextureViewDescriptor& TextureView::descriptor() const { return object_->descriptor; }
+Texture TextureView::texture() const {
+    return Texture(object_->texture);
+}
+const TextureViewDescriptor& TextureView::descriptor() const {
+    return object_->descriptor;
+}
 
 }  // namespace pelage::rhi

@@ -7,22 +7,38 @@ namespace pelage::rhi::detail {
 
 const char* name(UseKind kind) {
     switch (kind) {
-        case UseKind::VertexBuffer: return "a vertex buffer";
-        case UseKind::IndexBuffer: return "an index buffer";
-        case UseKind::UniformBuffer: return "a uniform buffer";
-        case UseKind::StorageBufferRead: return "a read-only storage buffer";
-        case UseKind::StorageBufferWrite: return "a writable storage buffer";
-        case UseKind::Sampled: return "a sampled texture";
-        case UseKind::StorageTextureRead: return "a read-only storage texture";
-        case UseKind::StorageTextureWrite: return "a writable storage texture";
-        case UseKind::ColorAttachment: return "a colour attachment";
-        case UseKind::ResolveTarget: return "a resolve target";
-        case UseKind::DepthAttachment: return "a depth attachment";
-        case UseKind::ReadOnlyDepth: return "a read-only depth attachment";
-        case UseKind::CopySource: return "the source of a copy";
-        case UseKind::CopyDestination: return "the destination of a copy";
-        case UseKind::QueryResolve: return "the destination of a query resolve";
-        case UseKind::Present: return "a presented texture";
+        case UseKind::VertexBuffer:
+            return "a vertex buffer";
+        case UseKind::IndexBuffer:
+            return "an index buffer";
+        case UseKind::UniformBuffer:
+            return "a uniform buffer";
+        case UseKind::StorageBufferRead:
+            return "a read-only storage buffer";
+        case UseKind::StorageBufferWrite:
+            return "a writable storage buffer";
+        case UseKind::Sampled:
+            return "a sampled texture";
+        case UseKind::StorageTextureRead:
+            return "a read-only storage texture";
+        case UseKind::StorageTextureWrite:
+            return "a writable storage texture";
+        case UseKind::ColorAttachment:
+            return "a colour attachment";
+        case UseKind::ResolveTarget:
+            return "a resolve target";
+        case UseKind::DepthAttachment:
+            return "a depth attachment";
+        case UseKind::ReadOnlyDepth:
+            return "a read-only depth attachment";
+        case UseKind::CopySource:
+            return "the source of a copy";
+        case UseKind::CopyDestination:
+            return "the destination of a copy";
+        case UseKind::QueryResolve:
+            return "the destination of a query resolve";
+        case UseKind::Present:
+            return "a presented texture";
     }
     return "";
 }
@@ -35,8 +51,10 @@ bool isWrite(UseKind kind) {
         case UseKind::ResolveTarget:
         case UseKind::DepthAttachment:
         case UseKind::CopyDestination:
-        case UseKind::QueryResolve: return true;
-        default: return false;
+        case UseKind::QueryResolve:
+            return true;
+        default:
+            return false;
     }
 }
 
@@ -51,8 +69,10 @@ Access accessOf(UseKind kind, VkPipelineStageFlags2 shaderStages, bool depthForm
             return {VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT, VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT, none, false};
         case UseKind::IndexBuffer:
             return {VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT, VK_ACCESS_2_INDEX_READ_BIT, none, false};
-        case UseKind::UniformBuffer: return {shaderStages, VK_ACCESS_2_UNIFORM_READ_BIT, none, false};
-        case UseKind::StorageBufferRead: return {shaderStages, VK_ACCESS_2_SHADER_STORAGE_READ_BIT, none, false};
+        case UseKind::UniformBuffer:
+            return {shaderStages, VK_ACCESS_2_UNIFORM_READ_BIT, none, false};
+        case UseKind::StorageBufferRead:
+            return {shaderStages, VK_ACCESS_2_SHADER_STORAGE_READ_BIT, none, false};
         case UseKind::StorageBufferWrite:
             return {shaderStages, VK_ACCESS_2_SHADER_STORAGE_READ_BIT | VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT, none,
                     true};
@@ -98,9 +118,8 @@ bool compatible(UseKind a, UseKind b, bool depthFormat) {
 
 /// Moves the state over one use. True when a barrier is needed, which `transition` then describes.
 bool BarrierBatch::step(AccessState& state, const Access& access, VkImageMemoryBarrier2& transition) {
-    constexpr VkAccessFlags2 writes =
-        VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
-        VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT;
+    constexpr VkAccessFlags2 writes = VK_ACCESS_2_SHADER_STORAGE_WRITE_BIT | VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT |
+                                      VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT;
     const bool relayout = access.layout != state.layout;
     transition.oldLayout = state.layout;
     transition.newLayout = access.layout;
@@ -116,8 +135,7 @@ bool BarrierBatch::step(AccessState& state, const Access& access, VkImageMemoryB
             state = {access.layout, access.stages, access.stages, 0, access.access};
         return needed;
     }
-    const bool visible =
-        (access.stages & ~state.readStages) == 0 && (access.access & ~state.readAccess) == 0;
+    const bool visible = (access.stages & ~state.readStages) == 0 && (access.access & ~state.readAccess) == 0;
     state.readStages |= access.stages;
     state.readAccess |= access.access;
     if (state.writeStages == 0 || visible) return false;

@@ -16,9 +16,22 @@
 namespace pelage::rhi::detail {
 
 enum class UseKind : std::uint8_t {
-    VertexBuffer, IndexBuffer, UniformBuffer, StorageBufferRead, StorageBufferWrite, Sampled, StorageTextureRead,
-    StorageTextureWrite, ColorAttachment, ResolveTarget, DepthAttachment, ReadOnlyDepth, CopySource, CopyDestination,
-    QueryResolve, Present,
+    VertexBuffer,
+    IndexBuffer,
+    UniformBuffer,
+    StorageBufferRead,
+    StorageBufferWrite,
+    Sampled,
+    StorageTextureRead,
+    StorageTextureWrite,
+    ColorAttachment,
+    ResolveTarget,
+    DepthAttachment,
+    ReadOnlyDepth,
+    CopySource,
+    CopyDestination,
+    QueryResolve,
+    Present,
 };
 const char* name(UseKind kind);
 bool isWrite(UseKind kind);

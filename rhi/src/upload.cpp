@@ -121,8 +121,9 @@ Result<void> writeBuffer(DeviceObject& device, const Buffer& buffer, std::uint64
     if (auto ok = needSameDevice(b, device); !ok) return ok;
     if (auto ok = needUsage(b, BufferUsage::CopyDst, "writeBuffer()"); !ok) return ok;
     if (offset > b.descriptor.size || data.size() > b.descriptor.size - offset)
-        return invalid(ErrorCode::OutOfRange, cat("writeBuffer() writes the bytes ", offset, " … ", offset + data.size(),
-                                                  " of ", b.describe(), ", which has ", b.descriptor.size, '.'));
+        return invalid(ErrorCode::OutOfRange,
+                       cat("writeBuffer() writes the bytes ", offset, " … ", offset + data.size(), " of ", b.describe(),
+                           ", which has ", b.descriptor.size, '.'));
     if (data.empty()) return {};
     const std::lock_guard lock(device.queue.mutex);
     if (device.lost)
@@ -137,8 +138,8 @@ Result<void> writeBuffer(DeviceObject& device, const Buffer& buffer, std::uint64
     return {};
 }
 
-Result<void> writeTexture(DeviceObject& device, const TexelCopyTextureInfo& destination, std::span<const std::byte> data,
-                          const TexelCopyBufferLayout& layout, const Extent3D& size) {
+Result<void> writeTexture(DeviceObject& device, const TexelCopyTextureInfo& destination,
+                          std::span<const std::byte> data, const TexelCopyBufferLayout& layout, const Extent3D& size) {
     if (auto ok = needHandle(destination.texture, "the destination of writeTexture()"); !ok) return ok;
     auto& t = *destination.texture.get();
     if (auto ok = needSameDevice(t, device); !ok) return ok;
@@ -162,8 +163,8 @@ Result<void> writeTexture(DeviceObject& device, const TexelCopyTextureInfo& dest
     upload.staging = staged->buffer;
     upload.texture = &t;
     upload.imageRegion = static_cast<std::uint32_t>(uploads.bufferImageRegions.size() - 1);
-    addUpload(uploads, destination.texture.shared(),
-              copyUse(t, region->imageSubresource, UseKind::CopyDestination), upload);
+    addUpload(uploads, destination.texture.shared(), copyUse(t, region->imageSubresource, UseKind::CopyDestination),
+              upload);
     return {};
 }
 

@@ -43,7 +43,7 @@ std::string withoutPass(std::string text, const std::string& name) {
 hair::Renderer rendererFor(const std::string& text) {
     auto tree = passes::PassTree::parse(text, "edited.pass.json");
     EXPECT_TRUE(tree) << tree.error().text();
-    auto renderer = hair::Renderer::create({.device = gpu().device, .tree = *tree});
+    auto renderer = hair::Renderer::create({.device = Gpu::get().device, .tree = *tree});
     EXPECT_TRUE(renderer);
     return *renderer;
 }
@@ -98,7 +98,7 @@ TEST_F(Frame, NoShadowLightNoShadowPass) {
 
 // Every hidden fragment is rejected by the depth pass: the forward pass shades each visible pixel about once.
 TEST_F(Frame, ForwardPassShadesOnlyWhatIsSeen) {
-    if (!gpu().device.has(rhi::Feature::PipelineStatistics)) GTEST_SKIP() << "the device counts no fragments";
+    if (!Gpu::get().device.has(rhi::Feature::PipelineStatistics)) GTEST_SKIP() << "the device counts no fragments";
     hair::Scene scene = portrait(strands(), material("brown"));
     hair::Renderer renderer = rendererFor(shippedTree());
     const hair::Picture picture = render(renderer, scene);
@@ -113,7 +113,7 @@ TEST_F(Frame, ForwardPassShadesOnlyWhatIsSeen) {
 
 // The timestamps of the passes add up to the frame: what lavapipe bins is flushed (design: passes sum to the frame).
 TEST_F(Frame, PassTimesSumToTheFrame) {
-    if (!gpu().device.has(rhi::Feature::Timestamps)) GTEST_SKIP() << "the device has no timestamps";
+    if (!Gpu::get().device.has(rhi::Feature::Timestamps)) GTEST_SKIP() << "the device has no timestamps";
     hair::Scene scene = portrait(strands(), material("brown"));
     hair::Renderer renderer = rendererFor(shippedTree());
     render(renderer, scene, 256);  // compiles the shaders
@@ -130,9 +130,9 @@ TEST_F(Frame, ASecondFrameCreatesNothing) {
     hair::Renderer renderer = rendererFor(shippedTree());
     render(renderer, scene);
     render(renderer, scene);
-    const auto before = gpu().device.memoryStatistics();
+    const auto before = Gpu::get().device.memoryStatistics();
     const hair::Picture first = render(renderer, scene), second = render(renderer, scene);
-    const auto after = gpu().device.memoryStatistics();
+    const auto after = Gpu::get().device.memoryStatistics();
     EXPECT_EQ(before.livePipelines, after.livePipelines);
     EXPECT_EQ(before.liveTextures, after.liveTextures);
     EXPECT_EQ(first.display, second.display);

@@ -25,7 +25,7 @@ hair::Renderer makeRenderer(const std::string& tree) {
         ADD_FAILURE() << parsed.error().text();
         std::abort();
     }
-    auto renderer = hair::Renderer::create({.device = gpu().device, .tree = *parsed});
+    auto renderer = hair::Renderer::create({.device = Gpu::get().device, .tree = *parsed});
     if (!renderer) {
         ADD_FAILURE() << toString(renderer.error());
         std::abort();

@@ -11,7 +11,11 @@ namespace pelage::passes::test {
 namespace {
 
 std::string shipped() { return std::string(shippedText("hair_frame.pass.json")); }
-HostDescription frame() { return {.extent = {320, 200, 1}}; }
+HostDescription frame() {
+    HostDescription host{.extent = {320, 200, 1}};
+    host.imports["DisplayConstants"] = {true};
+    return host;
+}
 using Names = std::vector<std::string>;
 
 struct Outcome {

@@ -61,8 +61,8 @@ TEST(Allocator, RandomUseNeverOverlapsAndLosesNothing) {
             EXPECT_EQ(*offset % alignment, 0U);
             EXPECT_LE(*offset + size, list.size());
             const auto next = live.lower_bound(*offset);
-            if (next != live.end()) EXPECT_LE(*offset + size, next->first);
-            if (next != live.begin()) EXPECT_LE(std::prev(next)->first + std::prev(next)->second, *offset);
+            EXPECT_TRUE(next == live.end() || *offset + size <= next->first);
+            EXPECT_TRUE(next == live.begin() || std::prev(next)->first + std::prev(next)->second <= *offset);
             live.emplace(*offset, size);
         } else {
             const auto it = std::next(live.begin(), static_cast<std::ptrdiff_t>(random() % live.size()));

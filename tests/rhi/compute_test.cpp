@@ -72,7 +72,8 @@ TEST_F(Compute, WritesAreReadByAFragmentShaderBehindOneBarrier) {
     pass.setBindGroup(0, gd);
     pass.draw(3);
     pass.end();
-    EXPECT_EQ(run(encoder).counters().barriers, 2U) << "fill -> dispatch, and one for buffer and target before the pass";
+    EXPECT_EQ(run(encoder).counters().barriers, 2U)
+        << "fill -> dispatch, and one for buffer and target before the pass";
     for (const auto& texel : read<Texel>(t)) EXPECT_EQ(texel, (Texel{255, 255, 255, 255}));
 }
 
@@ -121,7 +122,8 @@ TEST_F(Compute, StorageTextureIsPaintedAndSampled) {
     EXPECT_EQ(run(encoder).counters().barriers, 1U) << "out of the undefined layout";
     const auto q = pipeline("full.vert", "sample.frag");
     const auto s = value(device.createSampler({.label = "nearest"}));
-    EXPECT_EQ(drawTo(target(8, 8), q, group(q.bindGroupLayout(0), {{0, view(t)}, {1, s}}))[9], (Texel{51, 102, 153, 255}));
+    EXPECT_EQ(drawTo(target(8, 8), q, group(q.bindGroupLayout(0), {{0, view(t)}, {1, s}}))[9],
+              (Texel{51, 102, 153, 255}));
     EXPECT_EQ(read<Texel>(t)[63], (Texel{51, 102, 153, 255}));
 }
 

@@ -93,8 +93,8 @@ TEST_F(Draw, VertexIndexAndUniformBuffersFeedAMesh) {
         float x, y;
         std::uint8_t color[4];
     };
-    const std::vector<Vertex> vertices = {{-1, -1, {255, 0, 0, 255}}, {1, -1, {255, 0, 0, 255}}, {1, 1, {255, 0, 0, 255}},
-                                          {-1, 1, {255, 0, 0, 255}}};
+    const std::vector<Vertex> vertices = {
+        {-1, -1, {255, 0, 0, 255}}, {1, -1, {255, 0, 0, 255}}, {1, 1, {255, 0, 0, 255}}, {-1, 1, {255, 0, 0, 255}}};
     const std::vector<std::uint16_t> indices = {0, 1, 2, 0, 2, 3};
     const std::vector<float> frame = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0.4F, 1, 1, 1};
     const auto vb = bufferOf("vertices", vertices, BufferUsage::Vertex);
@@ -127,7 +127,8 @@ TEST_F(Draw, BlendingAddsWithFactors) {
     d.fragment->constants = {{"RED", 1}, {"ALPHA", 51}};
     d.targets[0].blend = BlendState{{BlendOperation::Add, BlendFactor::SrcAlpha, BlendFactor::OneMinusSrcAlpha},
                                     {BlendOperation::Add, BlendFactor::One, BlendFactor::One}};
-    EXPECT_EQ(drawTo(target(2, 2), value(device.createRenderPipeline(d)), {}, {0, 1, 0, 0.2})[0], (Texel{51, 204, 0, 102}));
+    EXPECT_EQ(drawTo(target(2, 2), value(device.createRenderPipeline(d)), {}, {0, 1, 0, 0.2})[0],
+              (Texel{51, 204, 0, 102}));
 }
 
 TEST_F(Draw, TwoTargetsOfDifferentKinds) {
@@ -154,7 +155,8 @@ TEST_F(Draw, MultisampleResolveAverages) {
     const auto p = value(device.createRenderPipeline(d));
     auto encoder = device.createCommandEncoder("resolve");
     auto pass = encoder.beginRenderPass(
-        {.label = "msaa", .colorAttachments = {{.view = view(many), .resolveTarget = view(one), .clearValue = {0, 0, 0, 1}}}});
+        {.label = "msaa",
+         .colorAttachments = {{.view = view(many), .resolveTarget = view(one), .clearValue = {0, 0, 0, 1}}}});
     pass.setPipeline(p);
     pass.draw(3);
     pass.end();
@@ -175,8 +177,8 @@ TEST_F(Draw, AlphaToCoverageTakesHalfTheSamples) {
     d.multisample = {.count = 4, .alphaToCoverageEnabled = true};
     const auto p = value(device.createRenderPipeline(d));
     auto encoder = device.createCommandEncoder("coverage");
-    auto pass = encoder.beginRenderPass({.label = "a2c",
-                                         .colorAttachments = {{.view = view(many), .resolveTarget = view(one)}}});
+    auto pass = encoder.beginRenderPass(
+        {.label = "a2c", .colorAttachments = {{.view = view(many), .resolveTarget = view(one)}}});
     pass.setPipeline(p);
     pass.draw(3);
     pass.end();
@@ -194,8 +196,8 @@ TEST_F(Draw, WideLineHasItsAreaUnderMultisampling) {
     d.multisample.count = 4;
     const auto p = value(device.createRenderPipeline(d));
     auto encoder = device.createCommandEncoder("line");
-    auto pass = encoder.beginRenderPass({.label = "line",
-                                         .colorAttachments = {{.view = view(many), .resolveTarget = view(one)}}});
+    auto pass = encoder.beginRenderPass(
+        {.label = "line", .colorAttachments = {{.view = view(many), .resolveTarget = view(one)}}});
     pass.setPipeline(p);
     pass.setLineWidth(3);
     pass.draw(2);
@@ -231,8 +233,10 @@ TEST_F(Draw, ReadOnlyDepthIsTestedAndSampledInOnePass) {
     const auto s = value(device.createSampler({.label = "compare", .compare = CompareFunction::Less}));
     const auto g = group(p.bindGroupLayout(0), {{0, view(z)}, {1, s}});
     auto encoder = device.createCommandEncoder("read-only depth");
-    encoder.beginRenderPass({.label = "clear depth",
-                             .depthStencilAttachment = RenderPassDepthStencilAttachment{.view = view(z), .depthClearValue = 0.6F}})
+    encoder
+        .beginRenderPass(
+            {.label = "clear depth",
+             .depthStencilAttachment = RenderPassDepthStencilAttachment{.view = view(z), .depthClearValue = 0.6F}})
         .end();
     auto descriptor = clearPass(view(t));
     descriptor.depthStencilAttachment = RenderPassDepthStencilAttachment{.view = view(z), .depthReadOnly = true};

@@ -34,9 +34,7 @@ TEST_F(Lifetime, EverythingDroppedRightAfterSubmit) {
 
 TEST_F(Lifetime, ABufferMayGoBeforeItsPendingWrite) {
     std::vector<std::uint32_t> words(64, 7);
-    {
-        const auto lost = bufferOf("lost", words, BufferUsage::Storage);
-    }
+    { const auto lost = bufferOf("lost", words, BufferUsage::Storage); }
     const auto kept = bufferOf("kept", words, BufferUsage::CopySrc);  // may have the address of the lost one
     EXPECT_EQ(read<std::uint32_t>(kept, 64), words);
 }
@@ -48,10 +46,12 @@ TEST_F(Lifetime, ADeviceOutlivesItsHandleWhileObjectsRemain) {
     {
         auto other = value(gpu.adapter.requestDevice({.label = "short-lived"}));
         watch = other.shared();
-        survivor = value(other.createBuffer({.label = "survivor", .size = 256, .usage = BufferUsage::Storage | BufferUsage::CopyDst}));
+        survivor = value(other.createBuffer(
+            {.label = "survivor", .size = 256, .usage = BufferUsage::Storage | BufferUsage::CopyDst}));
         const auto layout = value(other.createBindGroupLayout(
             {.label = "l", .entries = {{.binding = 0, .name = "b", .type = BindingType::StorageBuffer}}}));
-        bound = value(other.createBindGroup({.label = "g", .layout = layout, .entries = {{0, BufferBinding{survivor}}}}));
+        bound =
+            value(other.createBindGroup({.label = "g", .layout = layout, .entries = {{0, BufferBinding{survivor}}}}));
         const std::vector<std::byte> zero(256);
         succeed(other.queue().writeBuffer(survivor, 0, zero));  // pending for ever
         auto encoder = other.createCommandEncoder("unsubmitted");
@@ -71,8 +71,10 @@ TEST_F(Lifetime, ManyObjectsOfEveryKindInRandomOrder) {
     std::vector<std::shared_ptr<void>> all;
     const auto keep = [&](auto handle) { all.push_back(handle.shared()); };
     for (int i = 0; i < 50; ++i) {
-        keep(value(other.createBuffer({.label = "b", .size = 100U + static_cast<unsigned>(i) * 999U, .usage = BufferUsage::Uniform})));
-        const auto t = value(other.createTexture({.label = "t", .size = {33, 17, 1}, .usage = TextureUsage::TextureBinding}));
+        keep(value(other.createBuffer(
+            {.label = "b", .size = 100U + static_cast<unsigned>(i) * 999U, .usage = BufferUsage::Uniform})));
+        const auto t =
+            value(other.createTexture({.label = "t", .size = {33, 17, 1}, .usage = TextureUsage::TextureBinding}));
         keep(value(t.createView()));
         keep(t);
         keep(value(other.createSampler({.label = "s"})));
@@ -93,7 +95,8 @@ TEST_F(Lifetime, MemoryIsSubAllocatedAndGivenBack) {
     EXPECT_EQ(other.memoryStatistics().blocks, 0U);
     std::vector<Texture> textures;
     for (int i = 0; i < 1000; ++i)
-        textures.push_back(value(other.createTexture({.label = "small", .size = {16, 16, 1}, .usage = TextureUsage::TextureBinding})));
+        textures.push_back(
+            value(other.createTexture({.label = "small", .size = {16, 16, 1}, .usage = TextureUsage::TextureBinding})));
     auto s = other.memoryStatistics();
     EXPECT_LE(s.blocks, 4U) << "a thousand small textures take few allocations";
     EXPECT_EQ(s.allocations, 1000U);

@@ -8,7 +8,9 @@ namespace {
 
 using Textures = RhiTest;
 
-Texture make(Device& device, TextureDescriptor d) { return value(device.createTexture(d)); }
+Texture make(Device& device, TextureDescriptor d) {
+    return value(device.createTexture(d));
+}
 constexpr auto copies = TextureUsage::CopyDst | TextureUsage::CopySrc | TextureUsage::TextureBinding;
 
 TEST_F(Textures, EveryFormatSurvivesUploadAndReadback) {
@@ -21,7 +23,8 @@ TEST_F(Textures, EveryFormatSurvivesUploadAndReadback) {
         const auto t = make(device, {.label = "t", .size = {7, 5, 1}, .format = format, .usage = copies});
         std::vector<std::uint8_t> bytes(7 * 5 * bytesPerTexel(format));
         // Small values: valid halves, floats and depths in every interpretation.
-        for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(i % 4 == 3 ? 0x3e : i * 7 % 60);
+        for (std::size_t i = 0; i < bytes.size(); ++i)
+            bytes[i] = static_cast<std::uint8_t>(i % 4 == 3 ? 0x3e : i * 7 % 60);
         succeed(device.queue().writeTexture({.texture = t}, std::as_bytes(std::span(bytes)), {}, {7, 5, 1}));
         EXPECT_EQ(read<std::uint8_t>(t), bytes);
         EXPECT_EQ(textureFormatFromName(name(format)), format);
@@ -29,11 +32,9 @@ TEST_F(Textures, EveryFormatSurvivesUploadAndReadback) {
 }
 
 TEST_F(Textures, PartsOfMipsAndLayersAreWrittenWithRowPitch) {
-    const auto t = make(device, {.label = "parts",
-                                 .size = {8, 8, 3},
-                                 .mipLevelCount = 2,
-                                 .format = TextureFormat::R8Unorm,
-                                 .usage = copies});
+    const auto t = make(
+        device,
+        {.label = "parts", .size = {8, 8, 3}, .mipLevelCount = 2, .format = TextureFormat::R8Unorm, .usage = copies});
     std::vector<std::uint8_t> zero(8 * 8 * 3, 0), patch(100, 9);
     std::iota(patch.begin(), patch.end(), std::uint8_t{1});
     auto q = device.queue();
@@ -61,9 +62,9 @@ TEST_F(Textures, CubeViewsFaceTheirAxes) {
 }
 
 TEST_F(Textures, LayersAreRenderedOneByOneAndSampledTogether) {
-    const auto t = make(device, {.label = "layers",
-                                 .size = {4, 4, 3},
-                                 .usage = TextureUsage::RenderAttachment | TextureUsage::TextureBinding});
+    const auto t = make(
+        device,
+        {.label = "layers", .size = {4, 4, 3}, .usage = TextureUsage::RenderAttachment | TextureUsage::TextureBinding});
     auto encoder = device.createCommandEncoder("layers");
     for (std::uint32_t i = 0; i < 3; ++i)
         encoder
@@ -85,9 +86,10 @@ TEST_F(Textures, LayersAreRenderedOneByOneAndSampledTogether) {
 }
 
 TEST_F(Textures, OneLayerIsDrawnWhileAnotherIsSampled) {
-    const auto t = make(device, {.label = "ping-pong",
-                                 .size = {4, 4, 2},
-                                 .usage = TextureUsage::RenderAttachment | TextureUsage::TextureBinding | TextureUsage::CopySrc});
+    const auto t =
+        make(device, {.label = "ping-pong",
+                      .size = {4, 4, 2},
+                      .usage = TextureUsage::RenderAttachment | TextureUsage::TextureBinding | TextureUsage::CopySrc});
     const auto layer = [&](std::uint32_t i) {
         return view(t, {.dimension = TextureViewDimension::E2D, .baseArrayLayer = i});
     };

@@ -65,8 +65,10 @@ private:
         }
         adapter = *chosen;
         auto opened = adapter.requestDevice({.label = "tests", .optionalFeatures = adapter.info().features});
-        if (!opened) failure = rhi::toString(opened.error());
-        else device = *opened;
+        if (!opened)
+            failure = rhi::toString(opened.error());
+        else
+            device = *opened;
     }
 };
 
@@ -81,7 +83,8 @@ public:
             EXPECT_TRUE(Gpu::get().device.waitIdle().has_value());
             Gpu::get().device.collect();
         }
-        for (const auto& m : Gpu::get().messages.takeLayer()) ADD_FAILURE() << "validation layer: " << m.id << '\n' << m.text;
+        for (const auto& m : Gpu::get().messages.takeLayer())
+            ADD_FAILURE() << "validation layer: " << m.id << '\n' << m.text;
     }
 };
 
@@ -122,8 +125,10 @@ protected:
             return {};
         }
         auto sent = gpu.device.queue().submit(*commands);
-        if (!sent) ADD_FAILURE() << rhi::toString(sent.error());
-        else EXPECT_TRUE(value(gpu.device.queue().wait(*sent)));
+        if (!sent)
+            ADD_FAILURE() << rhi::toString(sent.error());
+        else
+            EXPECT_TRUE(value(gpu.device.queue().wait(*sent)));
         return *commands;
     }
     template <class T>
@@ -141,8 +146,7 @@ protected:
     std::vector<T> read(const rhi::Texture& source, std::uint32_t layer = 0, std::uint32_t mip = 0) {
         const auto size = source.size();
         const rhi::Extent3D extent{std::max(size.width >> mip, 1U), std::max(size.height >> mip, 1U), 1};
-        const std::uint64_t bytes =
-            std::uint64_t{extent.width} * extent.height * rhi::bytesPerTexel(source.format());
+        const std::uint64_t bytes = std::uint64_t{extent.width} * extent.height * rhi::bytesPerTexel(source.format());
         auto target = buffer("readback", bytes, rhi::BufferUsage::MapRead | rhi::BufferUsage::CopyDst);
         auto encoder = gpu.device.createCommandEncoder("read");
         encoder.copyTextureToBuffer({.texture = source, .mipLevel = mip, .origin = {0, 0, layer}}, {.buffer = target},

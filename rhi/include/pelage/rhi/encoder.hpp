@@ -113,6 +113,7 @@ class CommandBuffer : public Handle<detail::CommandBufferObject> {
 public:
     using Handle::Handle;
     /// vkCmdPipelineBarrier2 calls that replaying it issues, draws and dispatches: work counters without a clock.
+    /// `barriers` depends on what ran before and is known once the buffer is submitted; 0 until then.
     struct Counters {
         std::uint32_t barriers = 0, draws = 0, dispatches = 0, copies = 0, renderPasses = 0;
     };
