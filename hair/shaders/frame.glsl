@@ -19,7 +19,7 @@ layout(set = 0, binding = 0, std140) uniform Frame {
     vec4 viewport;    // width, height, 1 / width, 1 / height
     vec4 pixel;       // metres per pixel = x * distance to the eye + y; z: frame index; w: exposure
     vec4 viewForward; // xyz: unit, into the picture; w: 1 in the view of a light
-    vec4 ambient;     // rgb: mean radiance of all light on the scene, W/sr/m2
+    vec4 ambient;     // rgb: mean radiance of the environment, W/sr/m2
     LightData lights[MAX_LIGHTS];
 } frame;
 

@@ -37,11 +37,14 @@ void main() {
     ThesisParameters p = ThesisParameters(s.color, material.lobeSigma, material.lobeShift, material.lobeWeight,
                                           material.azimuthScale, material.azimuthNorm, material.fresnelF0, material.eta);
     vec3 radiance = vec3(0.0);
+    vec3 ambient = frame.ambient.rgb;
     int count = int(frame.eye.w);
     for (int i = 0; i < count; ++i) {
         Incident incident = incidentLight(frame.lights[i], s.world);
         float lit = shadowTransmittance(frame.lights[i], s.world, material.shadowDensity, material.shadowBias);
-        radiance += scatterThesis(s.tangent, incident.direction, s.wo, p) * incident.irradiance * lit;
+        vec3 arriving = incident.irradiance * lit;
+        radiance += scatterThesis(s.tangent, incident.direction, s.wo, p) * arriving;
+        ambient += arriving * isotropic;
     }
     if (envOn) {
         // Wider lobes stand for the size of what lights the hair (Karis 2016): R, TT, TRT keep their ratios.
@@ -49,6 +52,6 @@ void main() {
         radiance += scatterThesisEnvironment(s.tangent, s.normal, s.wo, p) * environmentIrradiance(s.normal) *
                     material.envScale;
     }
-    if (ambientOn) radiance += s.color * frame.ambient.rgb * material.ambientScatter;
+    if (ambientOn) radiance += s.color * ambient * material.ambientScatter;
     o_color = finish(radiance, s);
 }

@@ -35,16 +35,19 @@ void main() {
                                                 material.specularColor * material.specularWeight,
                                                 material.specularExponent, material.specularNorm);
     vec3 radiance = vec3(0.0);
+    vec3 ambient = frame.ambient.rgb;
     int count = int(frame.eye.w);
     for (int i = 0; i < count; ++i) {
         Incident incident = incidentLight(frame.lights[i], s.world);
         float lit = shadowTransmittance(frame.lights[i], s.world, material.shadowDensity, material.shadowBias);
-        radiance += scatterKajiyaKay(s.tangent, incident.direction, s.wo, p) * incident.irradiance * lit;
+        vec3 arriving = incident.irradiance * lit;
+        radiance += scatterKajiyaKay(s.tangent, incident.direction, s.wo, p) * arriving;
+        ambient += arriving * isotropic;
     }
     if (envOn) {
         radiance += scatterKajiyaKay(s.tangent, s.normal, s.wo, p) * environmentIrradiance(s.normal) *
                     material.envScale;
     }
-    if (ambientOn) radiance += s.color * frame.ambient.rgb * material.ambientScatter;
+    if (ambientOn) radiance += s.color * ambient * material.ambientScatter;
     o_color = finish(radiance, s);
 }

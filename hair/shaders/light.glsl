@@ -2,6 +2,9 @@
 // Light arriving at a point from light i, before shadows.
 #ifndef PELAGE_LIGHT_GLSL
 #define PELAGE_LIGHT_GLSL
+// A beam of E_perp scattered evenly into all directions has the radiance E_perp / (4 pi).
+const float isotropic = 0.0795774715;
+
 struct Incident {
     vec3 direction;   // unit, from the surface to the light
     vec3 irradiance;  // E_perp, W/m2, on a plane facing the light

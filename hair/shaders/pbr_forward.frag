@@ -33,11 +33,14 @@ void main() {
     PbrParameters p = PbrParameters(s.color, material.metallic, material.roughness, material.fresnelF0,
                                     material.specularScale);
     vec3 radiance = vec3(0.0);
+    vec3 ambient = frame.ambient.rgb;
     int count = int(frame.eye.w);
     for (int i = 0; i < count; ++i) {
         Incident incident = incidentLight(frame.lights[i], s.world);
         float lit = shadowTransmittance(frame.lights[i], s.world, material.shadowDensity, material.shadowBias);
-        radiance += scatterStandardPbr(s.normal, incident.direction, s.wo, p) * incident.irradiance * lit;
+        vec3 arriving = incident.irradiance * lit;
+        radiance += scatterStandardPbr(s.normal, incident.direction, s.wo, p) * arriving;
+        ambient += arriving * isotropic;
     }
     if (envOn) {
         // Diffuse from the irradiance; specular as if the map were the mirror direction, blurred to irradiance.
@@ -46,6 +49,6 @@ void main() {
         radiance += (p.color * (1.0 - p.metallic) * environmentIrradiance(s.normal) +
                      f0 * p.specularScale * environmentIrradiance(mirror)) * (0.3183098862 * material.envScale);
     }
-    if (ambientOn) radiance += s.color * frame.ambient.rgb * material.ambientScatter;
+    if (ambientOn) radiance += s.color * ambient * material.ambientScatter;
     o_color = finish(radiance, s);
 }

@@ -16,6 +16,7 @@ set(PELAGE_HAIR_GEOMETRY_SOURCES
   src/generate/card_frame.cpp
   src/generate/cards.cpp
   src/generate/clusters.cpp
+  src/generate/follow.cpp
   src/generate/groom.cpp
   src/generate/guides.cpp
   src/generate/head.cpp

@@ -67,7 +67,7 @@ Conversion fromTexture(const Property& property, std::string_view path) {
     if (path.empty()) return refuseType(property, "an empty path", "for no texture write builtin.white");
     constexpr std::string_view prefix = "builtin.";
     if (path.substr(0, prefix.size()) == prefix) {
-        const std::vector<std::string> builtins{"builtin.white", "builtin.grey", "builtin.black"};
+        const std::vector<std::string> builtins{"builtin.white", "builtin.grey", "builtin.black", "builtin.asset"};
         if (std::find(builtins.begin(), builtins.end(), path) == builtins.end())
             return refuse("V004", quoted(path) + " is not a built-in texture", nameHint(path, builtins));
     }

@@ -37,7 +37,8 @@ private:
             }
             const auto [first, isNew] = seen.emplace(pass.name, pass.namePlace);
             if (!isNew) {
-                reporter_.error(pass.namePlace, "P002", "second pass named '" + pass.name + "'", "first at " + atPlace(first->second));
+                reporter_.error(pass.namePlace, "P002", "second pass named '" + pass.name + "'",
+                                "first at " + atPlace(first->second));
             }
         }
     }
@@ -54,7 +55,8 @@ private:
             if (pass.view.empty()) reporter_.error(pass.place, "P024", "raster " + title + " has no \"view\"");
         } else {
             if (!pass.drawList.empty())
-                reporter_.error(pass.drawListPlace, "P024", title + " draws no list: it is not a raster pass", "remove \"drawList\"");
+                reporter_.error(pass.drawListPlace, "P024", title + " draws no list: it is not a raster pass",
+                                "remove \"drawList\"");
             if (pass.forEachLayer)
                 reporter_.error(pass.place, "P024", title + " cannot repeat for each view: it is not a raster pass",
                                 "remove \"forEachView\"");
@@ -64,8 +66,9 @@ private:
                             didYouMean(pass.view, namesOf(tree_.views), "add it to \"views\""));
         }
         if ((pass.kind == PassKind::Fullscreen || pass.kind == PassKind::Compute) && pass.shader.file.empty()) {
-            reporter_.error(pass.place, "P012",
-                            (pass.kind == PassKind::Compute ? "compute " : "fullscreen ") + title + " has no \"shader\"");
+            reporter_.error(
+                pass.place, "P012",
+                (pass.kind == PassKind::Compute ? "compute " : "fullscreen ") + title + " has no \"shader\"");
         }
         if (!pass.dispatchLike.empty() && !pass.slot(pass.dispatchLike)) {
             reporter_.error(pass.dispatchPlace, "P014", title + " has no slot '" + pass.dispatchLike + "'",
@@ -84,11 +87,14 @@ private:
     static bool fits(PassKind kind, SlotUse use) {
         switch (use) {
             case SlotUse::Color:
-            case SlotUse::Depth: return kind == PassKind::Raster || kind == PassKind::Fullscreen;
+            case SlotUse::Depth:
+                return kind == PassKind::Raster || kind == PassKind::Fullscreen;
             case SlotUse::Sampled:
             case SlotUse::Storage:
-            case SlotUse::Uniform: return kind != PassKind::Copy;
-            case SlotUse::Copy: return kind == PassKind::Copy;
+            case SlotUse::Uniform:
+                return kind != PassKind::Copy;
+            case SlotUse::Copy:
+                return kind == PassKind::Copy;
         }
         return false;
     }
@@ -102,14 +108,17 @@ private:
             return;
         }
         if ((slot.use == SlotUse::Sampled || slot.use == SlotUse::Uniform) && slot.access != SlotAccess::Read) {
-            reporter_.error(slot.place, "P023", title + " is " + (slot.use == SlotUse::Sampled ? "sampled" : "uniform") +
-                                                    ", which can only be read", "use \"storage\" or \"color\"");
+            reporter_.error(
+                slot.place, "P023",
+                title + " is " + (slot.use == SlotUse::Sampled ? "sampled" : "uniform") + ", which can only be read",
+                "use \"storage\" or \"color\"");
         }
         if (slot.use == SlotUse::Color && slot.access == SlotAccess::Read) {
             reporter_.error(slot.place, "P023", title + " is a color target that is only read", "use \"sampled\"");
         }
         if (bound && slot.bind.empty()) {
-            reporter_.error(slot.place, "P020", title + " is " + word(slot.use) + " but has no \"bind\"", "name the shader resource");
+            reporter_.error(slot.place, "P020", title + " is " + word(slot.use) + " but has no \"bind\"",
+                            "name the shader resource");
         } else if (!bound && !slot.bind.empty()) {
             reporter_.error(slot.bindPlace, "P020", title + " has a \"bind\" but is " + word(slot.use), "remove it");
         }
@@ -117,7 +126,8 @@ private:
             reporter_.error(slot.clearPlace, "P027", title + " is a " + word(slot.use) + " target",
                             slot.clearIsDepth ? "write [r, g, b, a]" : R"(write {"depth": "far"})");
         } else if (slot.hasClear && (!target || slot.access == SlotAccess::Read)) {
-            reporter_.error(slot.clearPlace, "P027", title + " is not a target that can be cleared", "remove \"clear\"");
+            reporter_.error(slot.clearPlace, "P027", title + " is not a target that can be cleared",
+                            "remove \"clear\"");
         }
         // A fullscreen triangle covers everything itself, unless it blends with what is there.
         const bool covers = pass.kind == PassKind::Fullscreen && !slot.blendPremultiplied;
@@ -126,7 +136,8 @@ private:
                             R"(add "clear": ..., or "load": "dontCare" when every pixel is written)");
         }
         if (slot.connectPlace.line == 0 && !slot.optional) {
-            reporter_.error(slot.place, "P013", title + " is not connected", R"(connect it, or mark it "optional": true)");
+            reporter_.error(slot.place, "P013", title + " is not connected",
+                            R"(connect it, or mark it "optional": true)");
         }
     }
 
@@ -136,8 +147,9 @@ private:
             if (slot.bind.empty()) continue;
             const auto [first, isNew] = seen.emplace(slot.bind, slot.name);
             if (!isNew) {
-                reporter_.error(slot.bindPlace, "P050", "slots '" + first->second + "' and '" + slot.name + "' of pass '" + pass.name +
-                                                            "' bind the same resource '" + slot.bind + "'");
+                reporter_.error(slot.bindPlace, "P050",
+                                "slots '" + first->second + "' and '" + slot.name + "' of pass '" + pass.name +
+                                    "' bind the same resource '" + slot.bind + "'");
             }
         }
     }
@@ -157,7 +169,8 @@ private:
             reporter_.error(pass.place, "P052", "pass '" + pass.name + "' draws but has neither color nor depth slot");
         }
         if (pass.kind == PassKind::Copy && (sources != 1 || copies != 1)) {
-            reporter_.error(pass.place, "P052", "copy pass '" + pass.name + "' needs one slot that reads and one that writes");
+            reporter_.error(pass.place, "P052",
+                            "copy pass '" + pass.name + "' needs one slot that reads and one that writes");
         }
     }
 
@@ -200,7 +213,8 @@ private:
         number(attachment.size.width, "size of " + title);
         number(attachment.size.height, "size of " + title);
         if (!attachment.layersView.empty() && !tree_.view(attachment.layersView)) {
-            reporter_.error(attachment.layersPlace, "P029", "layers of " + title + ": unknown view '" + attachment.layersView + "'",
+            reporter_.error(attachment.layersPlace, "P029",
+                            "layers of " + title + ": unknown view '" + attachment.layersView + "'",
                             didYouMean(attachment.layersView, namesOf(tree_.views), "add it to \"views\""));
         }
         const std::string& like = attachment.size.like;
@@ -208,7 +222,8 @@ private:
         std::vector<std::string> known;
         for (const ImportDeclaration& import : tree_.imports) known.push_back("host." + import.name);
         for (const AttachmentDeclaration& other : tree_.attachments) known.push_back("att." + other.name);
-        reporter_.error(attachment.size.place, "P031", "size of " + title + " follows unknown '" + like + "'", didYouMean(like, known));
+        reporter_.error(attachment.size.place, "P031", "size of " + title + " follows unknown '" + like + "'",
+                        didYouMean(like, known));
     }
 
     bool likeTarget(const std::string& like) const {
@@ -227,7 +242,8 @@ private:
             while (at && !done.count(at->name)) {
                 done.insert(at->name);
                 chain.push_back(at);
-                const bool follows = at->size.kind == SizeDeclaration::Kind::Like && at->size.like.rfind("att.", 0) == 0;
+                const bool follows =
+                    at->size.kind == SizeDeclaration::Kind::Like && at->size.like.rfind("att.", 0) == 0;
                 at = follows ? tree_.attachment(at->size.like.substr(4)) : nullptr;
             }
             std::string circle;
@@ -237,7 +253,8 @@ private:
                 if (inside) circle += "att." + each->name + " -> ";
             }
             if (!circle.empty()) {
-                reporter_.error(at->size.place, "P032", "sizes follow each other in a circle: " + circle + "att." + at->name,
+                reporter_.error(at->size.place, "P032",
+                                "sizes follow each other in a circle: " + circle + "att." + at->name,
                                 "give one of them \"frame\", \"fixed\" or like a host image");
             }
         }

@@ -20,6 +20,8 @@ std::string word(PassKind kind);
 inline bool has(const std::vector<std::string>& words, const std::string& one) {
     return std::find(words.begin(), words.end(), one) != words.end();
 }
-inline bool isDepthConstant(std::string_view name) { return name == "depthFar" || name == "depthFarArray"; }
+inline bool isDepthConstant(std::string_view name) {
+    return name == "depthFar" || name == "depthFarArray";
+}
 
 }  // namespace pelage::passes

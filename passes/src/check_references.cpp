@@ -10,7 +10,8 @@ using Root = Reference::Root;
 
 class ReferenceChecker {
 public:
-    ReferenceChecker(PassTree::Description& description, Reporter& reporter) : tree_(description), reporter_(reporter) {}
+    ReferenceChecker(PassTree::Description& description, Reporter& reporter)
+        : tree_(description), reporter_(reporter) {}
 
     void run() {
         for (const PassDeclaration& pass : tree_.passes) {
@@ -30,10 +31,11 @@ private:
     const SlotDeclaration* result(const Reference& reference, bool replaceable, const std::string& instead) {
         const PassDeclaration* pass = tree_.pass(reference.owner);
         if (!pass) {
-            const std::string hint = didYouMean(reference.owner, namesOf(tree_.passes),
-                                                R"(restore the pass, or name what to take instead: ["Pass.slot", "other"])");
+            const std::string hint =
+                didYouMean(reference.owner, namesOf(tree_.passes),
+                           R"(restore the pass, or name what to take instead: ["Pass.slot", "other"])");
             if (replaceable) {
-                reporter_.warning(reference.place, "P049", "unknown pass '" + reference.owner + "'; " + instead, 
+                reporter_.warning(reference.place, "P049", "unknown pass '" + reference.owner + "'; " + instead,
                                   didYouMean(reference.owner, namesOf(tree_.passes)));
             } else {
                 reporter_.error(reference.place, "P016", "unknown pass '" + reference.owner + "'", hint);
@@ -47,7 +49,8 @@ private:
             return nullptr;
         }
         if (slot->access == SlotAccess::Read) {
-            reporter_.error(reference.place, "P036", "'" + reference.text() + "' only reads; it has no result to connect to",
+            reporter_.error(reference.place, "P036",
+                            "'" + reference.text() + "' only reads; it has no result to connect to",
                             producerHint(*slot));
             return nullptr;
         }
@@ -87,51 +90,65 @@ private:
                        other ? "'" + other->text() + "' is taken instead" : title + " stays unconnected");
                 return;
             }
-            case Root::Host: return imported(pass, slot, reference, title);
+            case Root::Host:
+                return imported(pass, slot, reference, title);
             case Root::Attachment: {
                 if (!tree_.attachment(reference.member)) {
                     return unknown(reference, "attachment", namesOf(tree_.attachments), "att.");
                 }
-                const bool begins = slot.access == SlotAccess::Write || (slot.access == SlotAccess::ReadWrite && slot.hasClear);
+                const bool begins =
+                    slot.access == SlotAccess::Write || (slot.access == SlotAccess::ReadWrite && slot.hasClear);
                 if (!begins) {
-                    reporter_.error(reference.place, "P019", title + " reads '" + reference.text() + "' before anything has written it",
+                    reporter_.error(reference.place, "P019",
+                                    title + " reads '" + reference.text() + "' before anything has written it",
                                     writerHint(reference, pass.name));
                 }
                 return;
             }
             case Root::Constant:
-                if (!has(constantNames(), reference.member)) return unknown(reference, "constant", constantNames(), "const.");
-                if (writes) reporter_.error(reference.place, "P017", title + " writes '" + reference.text() + "', which is constant");
-                if (!writes && (slot.use == SlotUse::Depth || slot.use == SlotUse::Copy || slot.use == SlotUse::Uniform ||
-                                slot.use == SlotUse::Storage)) {
-                    reporter_.error(reference.place, "P045", "'" + reference.text() + "' can only feed sampled slots, " + title + " is " +
-                                                                 word(slot.use));
+                if (!has(constantNames(), reference.member))
+                    return unknown(reference, "constant", constantNames(), "const.");
+                if (writes)
+                    reporter_.error(reference.place, "P017",
+                                    title + " writes '" + reference.text() + "', which is constant");
+                if (!writes && (slot.use == SlotUse::Depth || slot.use == SlotUse::Copy ||
+                                slot.use == SlotUse::Uniform || slot.use == SlotUse::Storage)) {
+                    reporter_.error(
+                        reference.place, "P045",
+                        "'" + reference.text() + "' can only feed sampled slots, " + title + " is " + word(slot.use));
                 }
                 return;
         }
     }
 
-    void imported(const PassDeclaration&, const SlotDeclaration& slot, const Reference& reference, const std::string& title) {
+    void imported(const PassDeclaration&, const SlotDeclaration& slot, const Reference& reference,
+                  const std::string& title) {
         const ImportDeclaration* import = tree_.import(reference.member);
         if (!import) return unknown(reference, "import", namesOf(tree_.imports), "host.");
         const auto complain = [&](const std::string& does, const std::string& lends, const std::string& access) {
-            reporter_.error(reference.place, "P017", title + " " + does + " '" + reference.text() + "', which the host lends " + lends,
+            reporter_.error(reference.place, "P017",
+                            title + " " + does + " '" + reference.text() + "', which the host lends " + lends,
                             "set access of the import at " + atPlace(import->place) + " to " + access);
         };
-        if (slot.access != SlotAccess::Read && import->access == SlotAccess::Read) complain("writes", "read-only", "readWrite");
-        if (slot.access != SlotAccess::Write && import->access == SlotAccess::Write) complain("reads", "write-only", "readWrite");
+        if (slot.access != SlotAccess::Read && import->access == SlotAccess::Read)
+            complain("writes", "read-only", "readWrite");
+        if (slot.access != SlotAccess::Write && import->access == SlotAccess::Write)
+            complain("reads", "write-only", "readWrite");
         const bool buffer = import->kind == ImportDeclaration::Kind::Buffer;
         const bool bufferSlot = slot.use == SlotUse::Uniform || (slot.use == SlotUse::Storage && buffer);
         if (buffer != bufferSlot) {
-            reporter_.error(reference.place, "P037", "'" + reference.text() + "' is " + (buffer ? "a buffer" : "an image") + "; " + title +
-                                                         " is " + word(slot.use));
+            reporter_.error(reference.place, "P037",
+                            "'" + reference.text() + "' is " + (buffer ? "a buffer" : "an image") + "; " + title +
+                                " is " + word(slot.use));
         }
     }
 
-    void unknown(const Reference& reference, const std::string& what, const std::vector<std::string>& known, const std::string& prefix) {
+    void unknown(const Reference& reference, const std::string& what, const std::vector<std::string>& known,
+                 const std::string& prefix) {
         std::vector<std::string> full;
         for (const std::string& name : known) full.push_back(prefix + name);
-        reporter_.error(reference.place, "P016", "unknown " + what + " '" + reference.text() + "'", didYouMean(reference.text(), full));
+        reporter_.error(reference.place, "P016", "unknown " + what + " '" + reference.text() + "'",
+                        didYouMean(reference.text(), full));
     }
 
     std::string writerHint(const Reference& attachment, const std::string& reader) const {
@@ -177,7 +194,8 @@ private:
                 return import && !import->optional ? Feed::Always : Feed::Sometimes;
             }
             case Root::Attachment:
-            case Root::Constant: return Feed::Always;
+            case Root::Constant:
+                return Feed::Always;
         }
         return Feed::Never;
     }
@@ -192,14 +210,16 @@ private:
         const Reference& last = slot.connect.back();
         const std::string title = pass.name + "." + slot.name;
         if (last.root == Root::Host) {
-            reporter_.error(last.place, "P018", "'" + last.text() + "' may be absent, but slot '" + title + "' is required",
+            reporter_.error(last.place, "P018",
+                            "'" + last.text() + "' may be absent, but slot '" + title + "' is required",
                             "mark the slot optional, or \"enabledWhen\": \"host.has('" + last.member + "')\"");
             return;
         }
         const bool canStand = slot.access == SlotAccess::Read;
-        reporter_.error(last.place, "P044", "'" + title + "' needs '" + last.text() + "', but '" + last.owner + "' can be disabled",
-                        (canStand ? "give '" + last.owner + "' a \"whenDisabled\" for '" + last.member + "', " : std::string{}) +
-                            "name another source after it, or mark '" + title + "' optional");
+        reporter_.error(
+            last.place, "P044", "'" + title + "' needs '" + last.text() + "', but '" + last.owner + "' can be disabled",
+            (canStand ? "give '" + last.owner + "' a \"whenDisabled\" for '" + last.member + "', " : std::string{}) +
+                "name another source after it, or mark '" + title + "' optional");
     }
 
     void exported(const ExportDeclaration& each) {
@@ -207,23 +227,26 @@ private:
         for (std::size_t i = 0; i < each.from.size(); ++i) {
             const Reference& reference = each.from[i];
             if (reference.root != Root::Pass) {
-                reporter_.error(reference.place, "P036", "export '" + each.name + "' must come from a pass, not from '" +
-                                                             reference.text() + "'");
+                reporter_.error(
+                    reference.place, "P036",
+                    "export '" + each.name + "' must come from a pass, not from '" + reference.text() + "'");
                 faulty = true;
                 continue;
             }
             const Reference* other = otherThan(each.from, i, SlotAccess::ReadWrite);
             const std::size_t before = reporter_.errors();
-            const SlotDeclaration* slot = result(reference, other || each.optional,
-                                                 other ? "'" + other->text() + "' is exported instead"
-                                                       : "export '" + each.name + "' stays empty");
+            const SlotDeclaration* slot = result(
+                reference, other || each.optional,
+                other ? "'" + other->text() + "' is exported instead" : "export '" + each.name + "' stays empty");
             if (reporter_.errors() != before) faulty = true;
             if (slot && feed(reference, SlotAccess::ReadWrite) == Feed::Always) fed = true;
         }
         if (fed || faulty || each.optional || each.from.empty()) return;
         const Reference& last = each.from.back();
-        reporter_.error(last.place, "P044", "export '" + each.name + "' needs '" + last.text() + "', but '" + last.owner +
-                                                "' can be disabled", "name another source after it, or mark the export optional");
+        reporter_.error(
+            last.place, "P044",
+            "export '" + each.name + "' needs '" + last.text() + "', but '" + last.owner + "' can be disabled",
+            "name another source after it, or mark the export optional");
     }
 
     PassTree::Description& tree_;
@@ -243,7 +266,8 @@ void warnUnused(PassTree::Description& tree, Reporter& reporter) {
         if (!expression) return;
         for (const std::string& name : expression->settings()) used.insert("setting " + name);
         for (const ImportDeclaration& import : tree.imports) {
-            if (expression->text().find("'" + import.name + "'") != std::string::npos) used.insert("host." + import.name);
+            if (expression->text().find("'" + import.name + "'") != std::string::npos)
+                used.insert("host." + import.name);
         }
     };
     for (const PassDeclaration& pass : tree.passes) {
@@ -267,9 +291,12 @@ void warnUnused(PassTree::Description& tree, Reporter& reporter) {
     const auto warn = [&](const std::string& key, const std::string& what, Place place) {
         if (!used.count(key)) reporter.warning(place, "P047", what + " is never used", "use it or remove it");
     };
-    for (const AttachmentDeclaration& each : tree.attachments) warn("att." + each.name, "attachment '" + each.name + "'", each.place);
-    for (const ImportDeclaration& each : tree.imports) warn("host." + each.name, "import '" + each.name + "'", each.place);
-    for (const DrawListDeclaration& each : tree.drawLists) warn("list " + each.name, "draw list '" + each.name + "'", each.place);
+    for (const AttachmentDeclaration& each : tree.attachments)
+        warn("att." + each.name, "attachment '" + each.name + "'", each.place);
+    for (const ImportDeclaration& each : tree.imports)
+        warn("host." + each.name, "import '" + each.name + "'", each.place);
+    for (const DrawListDeclaration& each : tree.drawLists)
+        warn("list " + each.name, "draw list '" + each.name + "'", each.place);
     for (const ViewDeclaration& each : tree.views) warn("view " + each.name, "view '" + each.name + "'", each.place);
     for (const SettingDeclaration& each : tree.settings) {
         warn("setting " + each.info.name, "setting '" + each.info.name + "'", each.place);

@@ -19,18 +19,32 @@ std::string didYouMean(std::string_view word, const std::vector<std::string>& kn
     return near.empty() ? std::move(otherwise) : "did you mean '" + std::string(near) + "'?";
 }
 
-std::string atPlace(Place place) { return std::to_string(place.line) + ":" + std::to_string(place.column); }
+std::string atPlace(Place place) {
+    return std::to_string(place.line) + ":" + std::to_string(place.column);
+}
 
-const SlotDeclaration* PassDeclaration::slot(std::string_view word) const { return byName(slots, word); }
-std::vector<std::string> PassDeclaration::slotNames() const { return namesOf(slots); }
+const SlotDeclaration* PassDeclaration::slot(std::string_view word) const {
+    return byName(slots, word);
+}
+std::vector<std::string> PassDeclaration::slotNames() const {
+    return namesOf(slots);
+}
 
-const SettingInfo* PassTree::Description::setting(std::string_view word) const { return byName(settingInfos, word); }
-const ImportDeclaration* PassTree::Description::import(std::string_view word) const { return byName(imports, word); }
-const ViewDeclaration* PassTree::Description::view(std::string_view word) const { return byName(views, word); }
+const SettingInfo* PassTree::Description::setting(std::string_view word) const {
+    return byName(settingInfos, word);
+}
+const ImportDeclaration* PassTree::Description::import(std::string_view word) const {
+    return byName(imports, word);
+}
+const ViewDeclaration* PassTree::Description::view(std::string_view word) const {
+    return byName(views, word);
+}
 const AttachmentDeclaration* PassTree::Description::attachment(std::string_view word) const {
     return byName(attachments, word);
 }
-const PassDeclaration* PassTree::Description::pass(std::string_view word) const { return byName(passes, word); }
+const PassDeclaration* PassTree::Description::pass(std::string_view word) const {
+    return byName(passes, word);
+}
 
 Vocabulary PassTree::Description::vocabulary() const {
     Vocabulary vocabulary;

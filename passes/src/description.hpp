@@ -16,10 +16,12 @@ class Reporter {
 public:
     Reporter(std::string file, Diagnostics& out) : file_(std::move(file)), out_(out) {}
     void error(Place place, std::string_view code, std::string text, std::string hint = {}) {
-        out_.add({Severity::Error, std::string(code), file_, place.line, place.column, std::move(text), std::move(hint)});
+        out_.add(
+            {Severity::Error, std::string(code), file_, place.line, place.column, std::move(text), std::move(hint)});
     }
     void warning(Place place, std::string_view code, std::string text, std::string hint = {}) {
-        out_.add({Severity::Warning, std::string(code), file_, place.line, place.column, std::move(text), std::move(hint)});
+        out_.add(
+            {Severity::Warning, std::string(code), file_, place.line, place.column, std::move(text), std::move(hint)});
     }
     bool failed() const { return out_.hasErrors(); }
     std::size_t errors() const {

@@ -9,8 +9,22 @@
 namespace pelage::passes {
 
 struct Expression::Node {
-    enum class Op : std::uint8_t { Or, And, Not, Equal, NotEqual, Less, LessEqual, Greater, GreaterEqual, In, Number, Word,
-                                   Setting, HostHas } op = Op::Number;
+    enum class Op : std::uint8_t {
+        Or,
+        And,
+        Not,
+        Equal,
+        NotEqual,
+        Less,
+        LessEqual,
+        Greater,
+        GreaterEqual,
+        In,
+        Number,
+        Word,
+        Setting,
+        HostHas
+    } op = Op::Number;
     enum class Type : std::uint8_t { Bool, Number, Word } type = Type::Bool;
     double number = 0;
     std::string word = {};
@@ -36,8 +50,12 @@ struct Token {
     std::uint32_t offset = 0;
 };
 
-bool isLetter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_'; }
-bool isDigit(char c) { return c >= '0' && c <= '9'; }
+bool isLetter(char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_';
+}
+bool isDigit(char c) {
+    return c >= '0' && c <= '9';
+}
 
 class Lexer {
 public:
@@ -67,8 +85,10 @@ public:
             at_ = end + 1;
             return token;
         }
-        for (const std::string_view symbol : {"||", "&&", "==", "!=", "<=", ">=", "<", ">", "!", "(", ")", "[", "]", ","}) {
-            if (text_.substr(at_, symbol.size()) == symbol) return take(token, Token::Kind::Symbol, at_ + symbol.size());
+        for (const std::string_view symbol :
+             {"||", "&&", "==", "!=", "<=", ">=", "<", ">", "!", "(", ")", "[", "]", ","}) {
+            if (text_.substr(at_, symbol.size()) == symbol)
+                return take(token, Token::Kind::Symbol, at_ + symbol.size());
         }
         return take(token, Token::Kind::Bad, at_ + 1);
     }
@@ -86,7 +106,8 @@ private:
 
 class Parser {
 public:
-    Parser(const std::string& text, Place place, const Vocabulary& vocabulary, const std::string& about, Reporter& reporter)
+    Parser(const std::string& text, Place place, const Vocabulary& vocabulary, const std::string& about,
+           Reporter& reporter)
         : lexer_(text), place_(place), vocabulary_(vocabulary), about_(about), reporter_(reporter) {
         token_ = lexer_.next();
     }
@@ -101,7 +122,8 @@ public:
 private:
     NodePointer fail(std::uint32_t offset, const char* code, std::string text, std::string hint = {}) {
         // +1: the quote that opens the string.
-        reporter_.error({place_.line, place_.column + 1 + offset}, code, about_ + ": " + std::move(text), std::move(hint));
+        reporter_.error({place_.line, place_.column + 1 + offset}, code, about_ + ": " + std::move(text),
+                        std::move(hint));
         return nullptr;
     }
     NodePointer syntax(const std::string& expected) {
@@ -129,8 +151,12 @@ private:
         return node.type == Type::Bool ? "bool" : node.type == Type::Number ? "number" : "word";
     }
 
-    NodePointer either() { return chain("||", Op::Or, [this] { return all(); }); }
-    NodePointer all() { return chain("&&", Op::And, [this] { return comparison(); }); }
+    NodePointer either() {
+        return chain("||", Op::Or, [this] { return all(); });
+    }
+    NodePointer all() {
+        return chain("&&", Op::And, [this] { return comparison(); });
+    }
 
     template <class Next>
     NodePointer chain(std::string_view symbol, Op op, Next next) {
@@ -155,8 +181,8 @@ private:
             return membership(left, offset);
         }
         static constexpr std::pair<std::string_view, Op> ops[] = {
-            {"==", Op::Equal},      {"!=", Op::NotEqual}, {"<=", Op::LessEqual}, {">=", Op::GreaterEqual},
-            {"<", Op::Less},        {">", Op::Greater},
+            {"==", Op::Equal},        {"!=", Op::NotEqual}, {"<=", Op::LessEqual},
+            {">=", Op::GreaterEqual}, {"<", Op::Less},      {">", Op::Greater},
         };
         for (const auto& [symbol, op] : ops) {
             if (!accept(symbol)) continue;
@@ -164,8 +190,9 @@ private:
             if (!right) return nullptr;
             const bool ordered = op != Op::Equal && op != Op::NotEqual;
             if (left->type != right->type || (ordered && left->type != Type::Number)) {
-                return fail(offset, "E004", "cannot compare a " + name(*left) + " with a " + name(*right) + " by " +
-                                                std::string(symbol));
+                return fail(
+                    offset, "E004",
+                    "cannot compare a " + name(*left) + " with a " + name(*right) + " by " + std::string(symbol));
             }
             if (!knowsWord(left, right) || !knowsWord(right, left)) return nullptr;
             return make(op, Type::Bool, offset, {left, right});
@@ -244,7 +271,8 @@ private:
             if (import.kind != Token::Kind::Word) return syntax("an import in single quotes");
             const auto& known = vocabulary_.imports;
             if (std::find(known.begin(), known.end(), import.text) == known.end())
-                return fail(import.offset, "E002", "unknown import '" + import.text + "'", didYouMean(import.text, known));
+                return fail(import.offset, "E002", "unknown import '" + import.text + "'",
+                            didYouMean(import.text, known));
             token_ = lexer_.next();
             if (!accept(")")) return syntax("')'");
             node->op = Op::HostHas, node->type = Type::Bool, node->word = import.text;
@@ -256,7 +284,9 @@ private:
             if (setting->name != token.text) continue;
             using Kind = SettingValue::Type;
             node->op = Op::Setting, node->word = token.text, node->setting = setting;
-            node->type = setting->type == Kind::Bool ? Type::Bool : setting->type == Kind::Uint ? Type::Number : Type::Word;
+            node->type = setting->type == Kind::Bool   ? Type::Bool
+                         : setting->type == Kind::Uint ? Type::Number
+                                                       : Type::Word;
             settings.push_back(token.text);
             return node;
         }
@@ -282,21 +312,32 @@ Result run(const Node& node, const Conditions& conditions) {
     const auto child = [&](std::size_t i) { return run(*node.children[i], conditions); };
     const auto truth = [](bool value) { return Result{value ? 1.0 : 0.0, {}}; };
     switch (node.op) {
-        case Op::Or: return truth(child(0).number != 0 || child(1).number != 0);
-        case Op::And: return truth(child(0).number != 0 && child(1).number != 0);
-        case Op::Not: return truth(child(0).number == 0);
-        case Op::Equal: return truth(child(0) == child(1));
-        case Op::NotEqual: return truth(!(child(0) == child(1)));
-        case Op::Less: return truth(child(0).number < child(1).number);
-        case Op::LessEqual: return truth(child(0).number <= child(1).number);
-        case Op::Greater: return truth(child(0).number > child(1).number);
-        case Op::GreaterEqual: return truth(child(0).number >= child(1).number);
+        case Op::Or:
+            return truth(child(0).number != 0 || child(1).number != 0);
+        case Op::And:
+            return truth(child(0).number != 0 && child(1).number != 0);
+        case Op::Not:
+            return truth(child(0).number == 0);
+        case Op::Equal:
+            return truth(child(0) == child(1));
+        case Op::NotEqual:
+            return truth(!(child(0) == child(1)));
+        case Op::Less:
+            return truth(child(0).number < child(1).number);
+        case Op::LessEqual:
+            return truth(child(0).number <= child(1).number);
+        case Op::Greater:
+            return truth(child(0).number > child(1).number);
+        case Op::GreaterEqual:
+            return truth(child(0).number >= child(1).number);
         case Op::In:
             for (std::size_t i = 1; i < node.children.size(); ++i)
                 if (child(0) == child(i)) return truth(true);
             return truth(false);
-        case Op::Number: return {node.number, {}};
-        case Op::Word: return {0, node.word};
+        case Op::Number:
+            return {node.number, {}};
+        case Op::Word:
+            return {0, node.word};
         case Op::Setting: {
             const auto found = conditions.settings.find(node.word);
             if (found == conditions.settings.end()) return {};
@@ -328,6 +369,8 @@ std::optional<Expression> Expression::parse(const std::string& text, json::Place
     return expression;
 }
 
-bool Expression::evaluate(const Conditions& conditions) const { return run(*root_, conditions).number != 0; }
+bool Expression::evaluate(const Conditions& conditions) const {
+    return run(*root_, conditions).number != 0;
+}
 
 }  // namespace pelage::passes

@@ -24,8 +24,8 @@ struct Conditions {
 
 class Expression {
 public:
-    /// Reports E001 (syntax), E002 (unknown name), E003 (not a word of the setting), E004 (types do not fit). `place` is
-    /// where the string begins in the file; `about` names the condition in messages.
+    /// Reports E001 (syntax), E002 (unknown name), E003 (not a word of the setting), E004 (types do not fit). `place`
+    /// is where the string begins in the file; `about` names the condition in messages.
     static std::optional<Expression> parse(const std::string& text, json::Place place, const Vocabulary& vocabulary,
                                            const std::string& about, Reporter& reporter);
     bool evaluate(const Conditions& conditions) const;

@@ -4,7 +4,8 @@
 namespace pelage::passes {
 namespace {
 
-Checked<void> failure(const std::string& file, std::string_view code, const rhi::Error& error, const std::string& what) {
+Checked<void> failure(const std::string& file, std::string_view code, const rhi::Error& error,
+                      const std::string& what) {
     Diagnostics out;
     Reporter(file, out).error({}, code, what + ": " + rhi::toString(error));
     return tl::unexpected(std::move(out));
@@ -66,7 +67,8 @@ Graph::Graph(Descriptor descriptor) : descriptor_(std::move(descriptor)) {}
 Checked<void> Graph::build(const PassTree& tree, const HostDescription& host) {
     HostDescription asked = host;
     if (!asked.supports) {
-        asked.supports = [device = descriptor_.device](rhi::TextureFormat format, rhi::TextureUsage usage, std::uint32_t samples) {
+        asked.supports = [device = descriptor_.device](rhi::TextureFormat format, rhi::TextureUsage usage,
+                                                       std::uint32_t samples) {
             return device.supports(format, usage, samples);
         };
     }

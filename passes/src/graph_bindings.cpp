@@ -46,12 +46,15 @@ public:
 
 private:
     tl::unexpected<rhi::Error> missing(const BindGroupLayoutEntry& wanted, const std::string& hint) const {
-        return tl::unexpected(shaderError("S011", "a shader of pass '" + pass_.name + "' uses '" + wanted.name + "' (set 1, binding " +
-                                                      std::to_string(wanted.binding) + ") but no slot of the pass binds it" +
+        return tl::unexpected(shaderError("S011", "a shader of pass '" + pass_.name + "' uses '" + wanted.name +
+                                                      "' (set 1, binding " + std::to_string(wanted.binding) +
+                                                      ") but no slot of the pass binds it" +
                                                       (hint.empty() ? "" : "; hint: " + hint)));
     }
-    tl::unexpected<rhi::Error> kind(const BindGroupLayoutEntry& wanted, const PlanSlot& slot, const std::string& text) const {
-        return tl::unexpected(shaderError("S012", "'" + wanted.name + "' in a shader of '" + pass_.name + "." + slot.name + "' is " + text));
+    tl::unexpected<rhi::Error> kind(const BindGroupLayoutEntry& wanted, const PlanSlot& slot,
+                                    const std::string& text) const {
+        return tl::unexpected(shaderError(
+            "S012", "'" + wanted.name + "' in a shader of '" + pass_.name + "." + slot.name + "' is " + text));
     }
 
     // An optional slot that nothing feeds still needs something to bind.
@@ -67,9 +70,11 @@ private:
         if (!texture) return kind(wanted, slot, "an image, and the slot has none");
         const bool manySamples = texture.sampleCount() > 1;
         if (manySamples != (wanted.type == BindingType::MultisampledTexture)) {
-            return kind(wanted, slot, manySamples ? "a single-sampled texture, the image has " + std::to_string(texture.sampleCount()) +
-                                                        " samples; hint: read it as texture2DMS"
-                                                  : "a multisampled texture, the image has 1 sample; hint: read it as texture2D");
+            return kind(wanted, slot,
+                        manySamples
+                            ? "a single-sampled texture, the image has " + std::to_string(texture.sampleCount()) +
+                                  " samples; hint: read it as texture2DMS"
+                            : "a multisampled texture, the image has 1 sample; hint: read it as texture2D");
         }
         rhi::TextureViewDescriptor view{.dimension = wanted.viewDimension};
         if (wanted.viewDimension == TextureViewDimension::Cube) {
@@ -78,7 +83,8 @@ private:
         } else if (wanted.viewDimension == TextureViewDimension::E2D) {
             view.arrayLayerCount = 1;
         }
-        const bool storage = wanted.type == BindingType::StorageTexture || wanted.type == BindingType::ReadOnlyStorageTexture;
+        const bool storage =
+            wanted.type == BindingType::StorageTexture || wanted.type == BindingType::ReadOnlyStorageTexture;
         if (storage) view.mipLevelCount = 1;
         return texture.createView(view);
     }
@@ -102,11 +108,15 @@ std::vector<const void*> lentTo(const Graph::State& state, const PlanPass& pass)
 }  // namespace
 
 rhi::Error shaderError(std::string_view code, std::string text) {
-    return {.kind = rhi::ErrorKind::Validation, .code = rhi::ErrorCode::BindingMismatch, .message = std::string(code) + ": " + text};
+    return {.kind = rhi::ErrorKind::Validation,
+            .code = rhi::ErrorCode::BindingMismatch,
+            .message = std::string(code) + ": " + text};
 }
 
 rhi::Result<rhi::BindGroup> bindGroupFor(Graph::State& state, std::size_t pass, const rhi::BindGroupLayout& layout) {
-    if (!layout) return tl::unexpected(shaderError("S011", "pass '" + state.plan.passes[pass].name + "': empty bind group layout"));
+    if (!layout)
+        return tl::unexpected(
+            shaderError("S011", "pass '" + state.plan.passes[pass].name + "': empty bind group layout"));
     std::vector<const void*> lent = lentTo(state, state.plan.passes[pass]);
     auto& cache = state.passes[pass].groups;
     const auto found = cache.find(layout.get());

@@ -13,8 +13,9 @@ struct SamplerRow {
     rhi::AddressMode address;
 };
 
-rhi::Result<rhi::Texture> makeConstant(const rhi::Device& device, const std::string& name, std::array<std::uint8_t, 4> texel,
-                                       rhi::TextureFormat format, std::uint32_t layers) {
+rhi::Result<rhi::Texture> makeConstant(const rhi::Device& device, const std::string& name,
+                                       std::array<std::uint8_t, 4> texel, rhi::TextureFormat format,
+                                       std::uint32_t layers) {
     auto texture = device.createTexture({.label = name,
                                          .size = {1, 1, layers},
                                          .format = format,
@@ -31,7 +32,9 @@ rhi::Result<rhi::Texture> makeConstant(const rhi::Device& device, const std::str
 
 }  // namespace
 
-bool isComparison(std::string_view sampler) { return sampler == "s_shadow"; }
+bool isComparison(std::string_view sampler) {
+    return sampler == "s_shadow";
+}
 
 rhi::Result<std::shared_ptr<const Fixtures>> makeFixtures(const rhi::Device& device, DepthConvention depth) {
     auto fixtures = std::make_shared<Fixtures>();

@@ -11,7 +11,8 @@ constexpr std::uint32_t slotSet = 1;
 
 class PipelineMaker {
 public:
-    PipelineMaker(Graph::State& state, const ShaderSource& shaders, const PassTree::Description& tree, Reporter& reporter)
+    PipelineMaker(Graph::State& state, const ShaderSource& shaders, const PassTree::Description& tree,
+                  Reporter& reporter)
         : state_(state), shaders_(shaders), tree_(tree), reporter_(reporter) {}
 
     void run() {
@@ -38,8 +39,9 @@ private:
         }
         auto made = shaders_(file);
         if (made && *made) return std::move(*made);
-        reporter_.error(place_, "S001", "cannot load '" + file + "' of pass '" + pass.name + "'" +
-                                            (made ? std::string{} : ": " + rhi::toString(made.error())));
+        reporter_.error(place_, "S001",
+                        "cannot load '" + file + "' of pass '" + pass.name + "'" +
+                            (made ? std::string{} : ": " + rhi::toString(made.error())));
         return std::nullopt;
     }
 
@@ -48,7 +50,8 @@ private:
         std::vector<std::string> known;
         for (const rhi::SpecConstant& constant : shader.reflection().specConstants) {
             known.push_back(constant.name);
-            if (const std::optional<double> value = constantValue(constant.name, pass)) made.constants.push_back({constant.name, *value});
+            if (const std::optional<double> value = constantValue(constant.name, pass))
+                made.constants.push_back({constant.name, *value});
         }
         for (const auto& [name, value] : pass.constants) {
             if (has(known, name)) continue;
@@ -86,16 +89,18 @@ private:
             if (slot.use == SlotUse::Color) {
                 rhi::ColorTargetState target{.format = state_.plan.resources[slot.resource].format};
                 if (slot.blendPremultiplied) {
-                    const rhi::BlendComponent over{rhi::BlendOperation::Add, rhi::BlendFactor::One, rhi::BlendFactor::OneMinusSrcAlpha};
+                    const rhi::BlendComponent over{rhi::BlendOperation::Add, rhi::BlendFactor::One,
+                                                   rhi::BlendFactor::OneMinusSrcAlpha};
                     target.blend = rhi::BlendState{over, over};
                 }
                 descriptor.targets.push_back(target);
             } else if (slot.use == SlotUse::Depth) {
                 const bool reversed = state_.plan.depth == DepthConvention::Reversed;
                 const auto nearer = reversed ? rhi::CompareFunction::GreaterEqual : rhi::CompareFunction::LessEqual;
-                descriptor.depthStencil = {.format = made.targets.depth,
-                                           .depthWriteEnabled = slot.access != SlotAccess::Read,
-                                           .depthCompare = slot.depthTestAlways ? rhi::CompareFunction::Always : nearer};
+                descriptor.depthStencil = {
+                    .format = made.targets.depth,
+                    .depthWriteEnabled = slot.access != SlotAccess::Read,
+                    .depthCompare = slot.depthTestAlways ? rhi::CompareFunction::Always : nearer};
             }
         }
         auto pipeline = state_.device.createRenderPipeline(descriptor);
@@ -119,15 +124,17 @@ private:
     }
 
     void failed(const PlanPass& pass, const rhi::Error& error) {
-        reporter_.error(place_, "S003", "the pipeline of pass '" + pass.name + "' cannot be made: " + rhi::toString(error));
+        reporter_.error(place_, "S003",
+                        "the pipeline of pass '" + pass.name + "' cannot be made: " + rhi::toString(error));
     }
 
     void onlySlotSet(const rhi::ShaderModule& shader, const PlanPass& pass) {
         for (const rhi::ReflectedBinding& binding : shader.reflection().bindings) {
             if (binding.group == slotSet) continue;
-            reporter_.error(place_, "S011", "'" + pass.shader + "' uses '" + binding.entry.name + "' (set " + std::to_string(binding.group) +
-                                                ", binding " + std::to_string(binding.entry.binding) + "); slots of '" + pass.name +
-                                                "' are bound in set 1 only");
+            reporter_.error(place_, "S011",
+                            "'" + pass.shader + "' uses '" + binding.entry.name + "' (set " +
+                                std::to_string(binding.group) + ", binding " + std::to_string(binding.entry.binding) +
+                                "); slots of '" + pass.name + "' are bound in set 1 only");
         }
     }
 
@@ -141,7 +148,8 @@ private:
             const SlotDeclaration* declared = says_ ? says_->slot(slot.name) : nullptr;
             if (declared && declared->optional) continue;
             reporter_.error(declared ? declared->bindPlace : place_, "S010",
-                            "'" + pass.name + "." + slot.name + "' binds '" + slot.bind + "', '" + pass.shader + "' has no such resource",
+                            "'" + pass.name + "." + slot.name + "' binds '" + slot.bind + "', '" + pass.shader +
+                                "' has no such resource",
                             didYouMean(slot.bind, known));
         }
     }
@@ -155,7 +163,8 @@ private:
         if (group) return;
         const std::string& message = group.error().message;
         const bool ours = message.size() > 6 && message[0] == 'S' && message[4] == ':';
-        reporter_.error(place_, ours ? message.substr(0, 4) : "S003", ours ? message.substr(6) : rhi::toString(group.error()));
+        reporter_.error(place_, ours ? message.substr(0, 4) : "S003",
+                        ours ? message.substr(6) : rhi::toString(group.error()));
     }
 
     Graph::State& state_;
@@ -168,7 +177,8 @@ private:
 
 }  // namespace
 
-void makePipelines(Graph::State& state, const ShaderSource& shaders, const PassTree::Description& tree, Reporter& reporter) {
+void makePipelines(Graph::State& state, const ShaderSource& shaders, const PassTree::Description& tree,
+                   Reporter& reporter) {
     PipelineMaker(state, shaders, tree, reporter).run();
 }
 

@@ -21,20 +21,23 @@ public:
             const std::string name = resource.name.substr(resource.name.find('.') + 1);
             if (resource.isBuffer) {
                 const auto found = imports.buffers.find(name);
-                if (found == imports.buffers.end() || !found->second) return fault("H001: the frame lacks the buffer '" + name + "'");
+                if (found == imports.buffers.end() || !found->second)
+                    return fault("H001: the frame lacks the buffer '" + name + "'");
                 state_.buffers[i] = found->second;
                 continue;
             }
             const auto found = imports.textures.find(name);
-            if (found == imports.textures.end() || !found->second) return fault("H001: the frame lacks the image '" + name + "'");
+            if (found == imports.textures.end() || !found->second)
+                return fault("H001: the frame lacks the image '" + name + "'");
             const rhi::Texture& texture = found->second;
             const rhi::Extent3D size = texture.size();
             if (texture.format() != resource.format || texture.sampleCount() != resource.samples ||
                 size.width != resource.extent.width || size.height != resource.extent.height) {
-                return fault("H002: the image '" + name + "' is " + std::to_string(size.width) + " x " + std::to_string(size.height) + " " +
-                             std::string(rhi::name(texture.format())) + ", the plan was made for " +
-                             std::to_string(resource.extent.width) + " x " + std::to_string(resource.extent.height) + " " +
-                             std::string(rhi::name(resource.format)) + "; build the graph again");
+                return fault("H002: the image '" + name + "' is " + std::to_string(size.width) + " x " +
+                             std::to_string(size.height) + " " + std::string(rhi::name(texture.format())) +
+                             ", the plan was made for " + std::to_string(resource.extent.width) + " x " +
+                             std::to_string(resource.extent.height) + " " + std::string(rhi::name(resource.format)) +
+                             "; build the graph again");
             }
             state_.textures[i] = texture;
         }
@@ -52,8 +55,12 @@ public:
             case PassKind::Fullscreen:
                 for (std::uint32_t layer = 0; layer < own.queries.count && done; ++layer) done = draw(index, layer);
                 break;
-            case PassKind::Compute: done = compute(index); break;
-            case PassKind::Copy: copy(pass, own); break;
+            case PassKind::Compute:
+                done = compute(index);
+                break;
+            case PassKind::Copy:
+                copy(pass, own);
+                break;
         }
         own.cpuMilliseconds = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
         return done;
@@ -70,15 +77,18 @@ private:
     }
 
     rhi::Result<rhi::TextureView> target(const PlanSlot& slot, std::uint32_t layer) const {
-        return state_.textures[slot.resource].createView(
-            {.dimension = rhi::TextureViewDimension::E2D, .mipLevelCount = 1, .baseArrayLayer = layer, .arrayLayerCount = 1});
+        return state_.textures[slot.resource].createView({.dimension = rhi::TextureViewDimension::E2D,
+                                                          .mipLevelCount = 1,
+                                                          .baseArrayLayer = layer,
+                                                          .arrayLayerCount = 1});
     }
 
     rhi::Result<void> draw(std::size_t index, std::uint32_t layer) {
         const PlanPass& pass = state_.plan.passes[index];
         PassState& own = state_.passes[index];
         const std::uint32_t query = own.queries.first + layer;
-        rhi::RenderPassDescriptor descriptor{.label = pass.forEachLayer ? pass.name + " " + std::to_string(layer) : pass.name};
+        rhi::RenderPassDescriptor descriptor{.label = pass.forEachLayer ? pass.name + " " + std::to_string(layer)
+                                                                        : pass.name};
         descriptor.timestampWrites = timestamps(query);
         descriptor.statistics = state_.statistics;
         descriptor.statisticsIndex = query;
@@ -107,7 +117,8 @@ private:
         return done;
     }
 
-    rhi::Result<void> raster(std::size_t index, std::uint32_t layer, const rhi::Extent3D& extent, rhi::RenderPassEncoder& recording) {
+    rhi::Result<void> raster(std::size_t index, std::uint32_t layer, const rhi::Extent3D& extent,
+                             rhi::RenderPassEncoder& recording) {
         if (!draws_) return {};
         RasterContext context{.pass = state_.plan.passes[index],
                               .viewIndex = layer,
@@ -160,7 +171,8 @@ private:
         for (const PlanSlot& slot : pass.slots) (slot.access == SlotAccess::Read ? from : to) = &slot;
         if (state_.timestamps) encoder_.writeTimestamp(state_.timestamps, 2 * own.queries.first);
         if (from && to && from->resource != ~0U && to->resource != ~0U) {
-            encoder_.copyTextureToTexture({.texture = state_.textures[from->resource]}, {.texture = state_.textures[to->resource]},
+            encoder_.copyTextureToTexture({.texture = state_.textures[from->resource]},
+                                          {.texture = state_.textures[to->resource]},
                                           state_.plan.resources[from->resource].extent);
         }
         if (state_.timestamps) encoder_.writeTimestamp(state_.timestamps, 2 * own.queries.first + 1);
@@ -175,7 +187,8 @@ private:
 
 rhi::Result<void> Graph::record(rhi::CommandEncoder& encoder, const FrameImports& imports, const DrawCallback& draws) {
     if (!state_) {
-        return tl::unexpected(rhi::Error{.code = rhi::ErrorCode::MissingState, .message = "Graph::record() before a build() that worked"});
+        return tl::unexpected(rhi::Error{.code = rhi::ErrorCode::MissingState,
+                                         .message = "Graph::record() before a build() that worked"});
     }
     Recorder recorder(*state_, encoder, draws);
     if (auto lent = recorder.lend(imports); !lent) return lent;

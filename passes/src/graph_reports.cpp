@@ -18,7 +18,9 @@ T resultAt(const rhi::Buffer& buffer, std::size_t index) {
 }
 
 // Compute and copy passes have no statistics query to read.
-bool hasStatistics(const PlanPass& pass) { return pass.kind == PassKind::Raster || pass.kind == PassKind::Fullscreen; }
+bool hasStatistics(const PlanPass& pass) {
+    return pass.kind == PassKind::Raster || pass.kind == PassKind::Fullscreen;
+}
 
 }  // namespace
 
@@ -28,8 +30,9 @@ rhi::Result<void> makeQueries(Graph::State& state) {
                           rhi::Buffer& results) -> rhi::Result<void> {
         auto queries = state.device.createQuerySet({.label = "passes", .type = type, .count = count});
         if (!queries) return tl::unexpected(std::move(queries.error()));
-        auto buffer = state.device.createBuffer(
-            {.label = "pass reports", .size = count * bytes, .usage = rhi::BufferUsage::QueryResolve | rhi::BufferUsage::MapRead});
+        auto buffer = state.device.createBuffer({.label = "pass reports",
+                                                 .size = count * bytes,
+                                                 .usage = rhi::BufferUsage::QueryResolve | rhi::BufferUsage::MapRead});
         if (!buffer) return tl::unexpected(std::move(buffer.error()));
         set = std::move(*queries);
         results = std::move(*buffer);
@@ -42,8 +45,8 @@ rhi::Result<void> makeQueries(Graph::State& state) {
     }
     const bool any = std::any_of(state.plan.passes.begin(), state.plan.passes.end(), hasStatistics);
     if (any && state.device.has(rhi::Feature::PipelineStatistics)) {
-        return make(rhi::QueryType::PipelineStatistics, state.queryCount, sizeof(rhi::PipelineStatistics), state.statistics,
-                    state.statisticsResults);
+        return make(rhi::QueryType::PipelineStatistics, state.queryCount, sizeof(rhi::PipelineStatistics),
+                    state.statistics, state.statisticsResults);
     }
     return {};
 }
@@ -68,7 +71,8 @@ std::vector<PassReport> Graph::reports() const {
     const double toMilliseconds = static_cast<double>(state_->device.limits().timestampPeriod) * 1e-6;
     for (std::size_t i = 0; i < state_->passes.size(); ++i) {
         const PassState& own = state_->passes[i];
-        PassReport report{.name = state_->plan.passes[i].name, .cpuMilliseconds = own.cpuMilliseconds, .draws = own.draws};
+        PassReport report{
+            .name = state_->plan.passes[i].name, .cpuMilliseconds = own.cpuMilliseconds, .draws = own.draws};
         for (std::uint32_t query = own.queries.first; query < own.queries.first + own.queries.count; ++query) {
             const auto begin = resultAt<std::uint64_t>(state_->timestampResults, 2 * query);
             const auto end = resultAt<std::uint64_t>(state_->timestampResults, 2 * query + 1);
@@ -90,7 +94,9 @@ double Graph::frameMilliseconds() const {
         first = std::min(first, resultAt<std::uint64_t>(state_->timestampResults, 2 * query));
         last = std::max(last, resultAt<std::uint64_t>(state_->timestampResults, 2 * query + 1));
     }
-    return last > first ? static_cast<double>(last - first) * static_cast<double>(state_->device.limits().timestampPeriod) * 1e-6 : 0;
+    return last > first
+               ? static_cast<double>(last - first) * static_cast<double>(state_->device.limits().timestampPeriod) * 1e-6
+               : 0;
 }
 
 }  // namespace pelage::passes

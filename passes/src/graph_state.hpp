@@ -22,7 +22,7 @@ struct PassQueries {
 };
 
 struct CachedGroup {
-    rhi::BindGroupLayout layout = {};  // held, so that its address stays its own
+    rhi::BindGroupLayout layout = {};    // held, so that its address stays its own
     std::vector<const void*> lent = {};  // imports it was made with
     rhi::BindGroup group = {};
 };
@@ -61,7 +61,8 @@ rhi::Error shaderError(std::string_view code, std::string text);
 rhi::Result<rhi::BindGroup> bindGroupFor(Graph::State& state, std::size_t pass, const rhi::BindGroupLayout& layout);
 
 /// Pipelines of fullscreen and compute passes; everything wrong at once.
-void makePipelines(Graph::State& state, const ShaderSource& shaders, const PassTree::Description& tree, Reporter& reporter);
+void makePipelines(Graph::State& state, const ShaderSource& shaders, const PassTree::Description& tree,
+                   Reporter& reporter);
 
 rhi::Result<void> makeQueries(Graph::State& state);
 /// Copies the queries of a frame to where the host can read them.

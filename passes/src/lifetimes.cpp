@@ -46,7 +46,8 @@ private:
         made.sort = says.sort;
         const bool first = !says.shader.when || says.shader.when->evaluate(linker_.conditions);
         made.shader = first ? says.shader.file : says.shader.otherwise;
-        for (const ConstantDeclaration& constant : says.constants) made.constants[constant.name] = linker_.constant(constant.value);
+        for (const ConstantDeclaration& constant : says.constants)
+            made.constants[constant.name] = linker_.constant(constant.value);
         std::copy(std::begin(says.dispatch), std::end(says.dispatch), std::begin(made.dispatch));
         const auto passIndex = static_cast<std::uint32_t>(plan_.passes.size());
         for (const LinkedSlot& linkedSlot : linked.slots) {
@@ -58,7 +59,8 @@ private:
             image.lastPass = passIndex;
             if (linkedSlot.says->name == says.dispatchLike) {
                 const std::uint32_t sides[3] = {image.extent.width, image.extent.height, image.layers};
-                for (std::size_t i = 0; i < 3; ++i) made.dispatch[i] = (sides[i] + says.threads[i] - 1) / says.threads[i];
+                for (std::size_t i = 0; i < 3; ++i)
+                    made.dispatch[i] = (sides[i] + says.threads[i] - 1) / says.threads[i];
             }
         }
         plan_.passes.push_back(std::move(made));
@@ -72,7 +74,9 @@ private:
         made.clear = says.clear;
         const float far = plan_.depth == DepthConvention::Reversed ? 0.0F : 1.0F;
         using Depth = SlotDeclaration::DepthClear;
-        made.clearDepth = says.depthClear == Depth::Far ? far : says.depthClear == Depth::Near ? 1.0F - far : says.depthValue;
+        made.clearDepth = says.depthClear == Depth::Far    ? far
+                          : says.depthClear == Depth::Near ? 1.0F - far
+                                                           : says.depthValue;
         if (linked.in == none) return made;
         const Version& version = linker_.versions[linked.in];
         made.resource = linker_.resources[version.resource].index;
@@ -90,14 +94,16 @@ private:
             for (PlanSlot& slot : plan_.passes[index].slots) {
                 if (slot.resource == none || slot.access == SlotAccess::Read) continue;
                 const PlanResource& image = plan_.resources[slot.resource];
-                const bool seen = image.lastPass > index || image.kind == PlanResource::Kind::Import || isExported(slot.resource);
+                const bool seen =
+                    image.lastPass > index || image.kind == PlanResource::Kind::Import || isExported(slot.resource);
                 slot.store = seen ? rhi::StoreOp::Store : rhi::StoreOp::Discard;
             }
         }
     }
 
     bool isExported(std::uint32_t resource) const {
-        return std::any_of(plan_.exports.begin(), plan_.exports.end(), [&](const auto& each) { return each.second == resource; });
+        return std::any_of(plan_.exports.begin(), plan_.exports.end(),
+                           [&](const auto& each) { return each.second == resource; });
     }
 
     // Whole textures are shared between images of one shape whose lifetimes do not overlap. An export is read after the
@@ -142,6 +148,8 @@ private:
 
 }  // namespace
 
-void Linker::finish() { Finisher(*this).run(); }
+void Linker::finish() {
+    Finisher(*this).run();
+}
 
 }  // namespace pelage::passes

@@ -37,7 +37,7 @@ struct LinkedResource {
     PlanResource plan = {};
     const AttachmentDeclaration* attachment = nullptr;
     const ImportDeclaration* import = nullptr;
-    std::uint32_t base = none;  // version 0
+    std::uint32_t base = none;   // version 0
     std::uint32_t index = none;  // in the plan
 };
 
@@ -57,8 +57,8 @@ struct Linker {
 
     // link_conditions.cpp: settings, imports, views, which passes are on (H001..H004).
     void evaluateConditions();
-    double number(const NumberOrSetting& value) const;       // pixels, samples, views
-    double constant(const NumberOrSetting& value) const;     // an enum gives the index of its word
+    double number(const NumberOrSetting& value) const;    // pixels, samples, views
+    double constant(const NumberOrSetting& value) const;  // an enum gives the index of its word
     // link_references.cpp: connections to versions of images (P033, P034, P044, P046).
     void resolveReferences();
     // schedule.cpp: culling and order (P046, P048).

@@ -5,12 +5,15 @@ namespace pelage::passes {
 namespace {
 
 // The value in force, or nothing with H003 reported.
-std::optional<SettingValue> checkedSetting(const SettingDeclaration& declared, const SettingValue& given, Reporter& reporter) {
+std::optional<SettingValue> checkedSetting(const SettingDeclaration& declared, const SettingValue& given,
+                                           Reporter& reporter) {
     const SettingInfo& info = declared.info;
     SettingValue value = given;
     std::string expected;
     if (given.type != info.type) {
-        expected = info.type == SettingValue::Type::Bool ? "a bool" : info.type == SettingValue::Type::Uint ? "a uint" : "a word";
+        expected = info.type == SettingValue::Type::Bool   ? "a bool"
+                   : info.type == SettingValue::Type::Uint ? "a uint"
+                                                           : "a word";
     } else if (info.type == SettingValue::Type::Bool) {
         if (given.number > 1) expected = "0 or 1";
     } else if (info.type == SettingValue::Type::Uint) {
@@ -29,7 +32,8 @@ std::optional<SettingValue> checkedSetting(const SettingDeclaration& declared, c
         }
     }
     if (expected.empty()) return value;
-    const std::string shown = given.type == SettingValue::Type::Enum ? "'" + given.word + "'" : std::to_string(given.number);
+    const std::string shown =
+        given.type == SettingValue::Type::Enum ? "'" + given.word + "'" : std::to_string(given.number);
     reporter.error(declared.place, "H003", "setting '" + info.name + "' cannot be " + shown + ": expected " + expected);
     return std::nullopt;
 }
@@ -52,14 +56,16 @@ double Linker::constant(const NumberOrSetting& value) const {
 
 void Linker::evaluateConditions() {
     if (host.extent.width == 0 || host.extent.height == 0) {
-        reporter.error({}, "H004", "the frame is " + std::to_string(host.extent.width) + " x " + std::to_string(host.extent.height),
+        reporter.error({}, "H004",
+                       "the frame is " + std::to_string(host.extent.width) + " x " + std::to_string(host.extent.height),
                        "build no plan while there is nothing to draw on");
     }
     for (const SettingDeclaration& declared : tree.settings) {
         conditions.settings[declared.info.name] = declared.info.defaultValue;
         const auto given = host.settings.find(declared.info.name);
         if (given == host.settings.end()) continue;
-        if (const auto value = checkedSetting(declared, given->second, reporter)) conditions.settings[declared.info.name] = *value;
+        if (const auto value = checkedSetting(declared, given->second, reporter))
+            conditions.settings[declared.info.name] = *value;
     }
     for (const auto& [name, value] : host.settings) {
         if (!tree.setting(name)) {

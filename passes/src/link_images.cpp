@@ -9,21 +9,30 @@ namespace {
 
 constexpr std::uint32_t largestSide = 32768;
 
-bool isTarget(const SlotDeclaration& slot) { return slot.use == SlotUse::Color || slot.use == SlotUse::Depth; }
+bool isTarget(const SlotDeclaration& slot) {
+    return slot.use == SlotUse::Color || slot.use == SlotUse::Depth;
+}
 
 rhi::TextureUsage usageOf(const SlotDeclaration& slot) {
     switch (slot.use) {
         case SlotUse::Color:
-        case SlotUse::Depth: return rhi::TextureUsage::RenderAttachment;
-        case SlotUse::Sampled: return rhi::TextureUsage::TextureBinding;
-        case SlotUse::Storage: return rhi::TextureUsage::StorageBinding;
-        case SlotUse::Copy: return slot.access == SlotAccess::Read ? rhi::TextureUsage::CopySrc : rhi::TextureUsage::CopyDst;
-        case SlotUse::Uniform: break;
+        case SlotUse::Depth:
+            return rhi::TextureUsage::RenderAttachment;
+        case SlotUse::Sampled:
+            return rhi::TextureUsage::TextureBinding;
+        case SlotUse::Storage:
+            return rhi::TextureUsage::StorageBinding;
+        case SlotUse::Copy:
+            return slot.access == SlotAccess::Read ? rhi::TextureUsage::CopySrc : rhi::TextureUsage::CopyDst;
+        case SlotUse::Uniform:
+            break;
     }
     return rhi::TextureUsage::None;
 }
 
-std::string text(const rhi::Extent3D& extent) { return std::to_string(extent.width) + " x " + std::to_string(extent.height); }
+std::string text(const rhi::Extent3D& extent) {
+    return std::to_string(extent.width) + " x " + std::to_string(extent.height);
+}
 
 class Describer {
 public:
@@ -74,16 +83,20 @@ private:
         image.extent = lent.extent;
         image.samples = lent.samples;
         image.layers = lent.extent.depthOrArrayLayers;
-        if (!says.formats.empty() && std::find(says.formats.begin(), says.formats.end(), lent.format) == says.formats.end()) {
+        if (!says.formats.empty() &&
+            std::find(says.formats.begin(), says.formats.end(), lent.format) == says.formats.end()) {
             std::string accepted;
             for (const rhi::TextureFormat format : says.formats)
                 accepted += (accepted.empty() ? "" : ", ") + std::string(rhi::name(format));
-            linker_.reporter.error(says.place, "H002", "'" + image.name + "' is " + std::string(rhi::name(lent.format)) +
-                                                           "; the tree accepts " + accepted);
+            linker_.reporter.error(
+                says.place, "H002",
+                "'" + image.name + "' is " + std::string(rhi::name(lent.format)) + "; the tree accepts " + accepted);
         }
-        if (!says.samples.empty() && std::find(says.samples.begin(), says.samples.end(), lent.samples) == says.samples.end()) {
-            linker_.reporter.error(says.place, "H002", "'" + image.name + "' has " + std::to_string(lent.samples) +
-                                                           " samples, which the tree does not accept");
+        if (!says.samples.empty() &&
+            std::find(says.samples.begin(), says.samples.end(), lent.samples) == says.samples.end()) {
+            linker_.reporter.error(says.place, "H002",
+                                   "'" + image.name + "' has " + std::to_string(lent.samples) +
+                                       " samples, which the tree does not accept");
         }
     }
 
@@ -96,17 +109,18 @@ private:
         const auto [width, height] = size(says.size);
         if (width < 1 || height < 1 || width > largestSide || height > largestSide) {
             if (!sizeFailed_) {
-                linker_.reporter.error(says.size.place, "D002", "'" + image.name + "' would be " + std::to_string(width) + " x " +
-                                                                    std::to_string(height) + "; a side is 1.." +
-                                                                    std::to_string(largestSide));
+                linker_.reporter.error(says.size.place, "D002",
+                                       "'" + image.name + "' would be " + std::to_string(width) + " x " +
+                                           std::to_string(height) + "; a side is 1.." + std::to_string(largestSide));
             }
             sizeFailed_ = false;
             return;
         }
         image.extent = {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), image.layers};
         if (image.layers > 256) {
-            linker_.reporter.error(says.layersPlace, "D002", "'" + image.name + "' would have " + std::to_string(image.layers) +
-                                                                 " layers; at most 256");
+            linker_.reporter.error(
+                says.layersPlace, "D002",
+                "'" + image.name + "' would have " + std::to_string(image.layers) + " layers; at most 256");
         }
     }
 
@@ -121,15 +135,20 @@ private:
         using Kind = SizeDeclaration::Kind;
         const auto whole = [](double number) { return static_cast<std::uint64_t>(std::max(0.0, number)); };
         switch (says.kind) {
-            case Kind::Frame: return scaled(linker_.host.extent.width, linker_.host.extent.height, says.scale);
-            case Kind::Square: return {whole(linker_.number(says.width)), whole(linker_.number(says.width))};
-            case Kind::Fixed: return {whole(linker_.number(says.width)), whole(linker_.number(says.height))};
-            case Kind::Like: break;
+            case Kind::Frame:
+                return scaled(linker_.host.extent.width, linker_.host.extent.height, says.scale);
+            case Kind::Square:
+                return {whole(linker_.number(says.width)), whole(linker_.number(says.width))};
+            case Kind::Fixed:
+                return {whole(linker_.number(says.width)), whole(linker_.number(says.height))};
+            case Kind::Like:
+                break;
         }
         if (says.like.rfind("host.", 0) == 0) {
             const auto lent = linker_.host.imports.find(says.like.substr(5));
             if (lent == linker_.host.imports.end() || !lent->second.present) {
-                linker_.reporter.error(says.place, "P031", "a size follows '" + says.like + "', which the host does not lend");
+                linker_.reporter.error(says.place, "P031",
+                                       "a size follows '" + says.like + "', which the host does not lend");
                 sizeFailed_ = true;
                 return {0, 0};
             }
@@ -148,10 +167,11 @@ private:
             resource.plan.format = format;
             if (linker_.host.supports(format, resource.plan.usage, resource.plan.samples)) return;
         }
-        linker_.reporter.error(resource.attachment->formatPlace, "D001",
-                               "the device can make 'att." + resource.attachment->name + "' in none of its formats with " +
-                                   std::to_string(resource.plan.samples) + " samples",
-                               resource.attachment->formats.size() > 1 ? "lower the samples" : "name \"formatFallbacks\"");
+        linker_.reporter.error(
+            resource.attachment->formatPlace, "D001",
+            "the device can make 'att." + resource.attachment->name + "' in none of its formats with " +
+                std::to_string(resource.plan.samples) + " samples",
+            resource.attachment->formats.size() > 1 ? "lower the samples" : "name \"formatFallbacks\"");
     }
 
     void passFits(const LinkedPass& pass) {
@@ -180,23 +200,27 @@ private:
         if (image.isBuffer) return;
         const std::string title = "'" + pass.says->name + "." + slot.says->name + "'";
         const bool depth = rhi::isDepth(image.format);
-        const bool wrong = (slot.says->use == SlotUse::Color && depth) || (slot.says->use == SlotUse::Depth && !depth) ||
+        const bool wrong = (slot.says->use == SlotUse::Color && depth) ||
+                           (slot.says->use == SlotUse::Depth && !depth) ||
                            (slot.says->use == SlotUse::Storage && depth);
         if (wrong) {
-            linker_.reporter.error(placeOf(slot), "P037", title + " is a " + word(slot.says->use) + " slot, '" + image.name + "' is " +
-                                                              std::string(rhi::name(image.format)));
+            linker_.reporter.error(placeOf(slot), "P037",
+                                   title + " is a " + word(slot.says->use) + " slot, '" + image.name + "' is " +
+                                       std::string(rhi::name(image.format)));
         }
         if (slot.says->use == SlotUse::Storage && image.samples > 1) {
-            linker_.reporter.error(placeOf(slot), "P042", title + " is storage, '" + image.name + "' has " +
-                                                              std::to_string(image.samples) + " samples");
+            linker_.reporter.error(
+                placeOf(slot), "P042",
+                title + " is storage, '" + image.name + "' has " + std::to_string(image.samples) + " samples");
         }
         if (!isTarget(*slot.says)) return;
         if (pass.says->forEachLayer ? image.layers < views : image.layers > 1) {
             linker_.reporter.error(placeOf(slot), "P039",
-                                   title + " draws into " + std::to_string(views) + " layer(s), '" + image.name + "' has " +
-                                       std::to_string(image.layers),
-                                   pass.says->forEachLayer ? "give it \"layers\": {\"view\": \"" + pass.says->view + "\"}"
-                                                           : "add \"forEachView\": \"layer\"");
+                                   title + " draws into " + std::to_string(views) + " layer(s), '" + image.name +
+                                       "' has " + std::to_string(image.layers),
+                                   pass.says->forEachLayer
+                                       ? "give it \"layers\": {\"view\": \"" + pass.says->view + "\"}"
+                                       : "add \"forEachView\": \"layer\"");
         }
     }
 
@@ -204,14 +228,16 @@ private:
         const PlanResource& left = resourceOf(a).plan;
         const PlanResource& right = resourceOf(b).plan;
         if (left.samples != right.samples) {
-            linker_.reporter.error(placeOf(b), "P038", "targets of '" + pass.says->name + "' differ in samples: '" + left.name + "' (" +
-                                                           std::to_string(left.samples) + "), '" + right.name + "' (" +
-                                                           std::to_string(right.samples) + ")",
+            linker_.reporter.error(placeOf(b), "P038",
+                                   "targets of '" + pass.says->name + "' differ in samples: '" + left.name + "' (" +
+                                       std::to_string(left.samples) + "), '" + right.name + "' (" +
+                                       std::to_string(right.samples) + ")",
                                    "give both the same \"samples\"");
         }
         if (left.extent.width != right.extent.width || left.extent.height != right.extent.height) {
-            linker_.reporter.error(placeOf(b), "P039", "targets of '" + pass.says->name + "' differ in size: '" + left.name + "' (" +
-                                                           text(left.extent) + "), '" + right.name + "' (" + text(right.extent) + ")",
+            linker_.reporter.error(placeOf(b), "P039",
+                                   "targets of '" + pass.says->name + "' differ in size: '" + left.name + "' (" +
+                                       text(left.extent) + "), '" + right.name + "' (" + text(right.extent) + ")",
                                    "give both the same \"size\"");
         }
     }
@@ -220,8 +246,9 @@ private:
         const PlanResource& a = resourceOf(from).plan;
         const PlanResource& b = resourceOf(to).plan;
         if (a.format == b.format && a.extent == b.extent && a.samples == b.samples) return;
-        linker_.reporter.error(placeOf(to), "P039", "copy pass '" + pass.says->name + "' needs equal images: '" + a.name + "' and '" + b.name +
-                                                        "' differ in format, size or samples");
+        linker_.reporter.error(placeOf(to), "P039",
+                               "copy pass '" + pass.says->name + "' needs equal images: '" + a.name + "' and '" +
+                                   b.name + "' differ in format, size or samples");
     }
 
     // One image twice in a pass is fine while nobody writes it.
@@ -230,10 +257,13 @@ private:
             for (std::size_t j = i + 1; j < pass.slots.size(); ++j) {
                 const LinkedSlot& a = pass.slots[i];
                 const LinkedSlot& b = pass.slots[j];
-                if (a.in == none || b.in == none || linker_.versions[a.in].resource != linker_.versions[b.in].resource) continue;
+                if (a.in == none || b.in == none || linker_.versions[a.in].resource != linker_.versions[b.in].resource)
+                    continue;
                 if (a.says->access == SlotAccess::Read && b.says->access == SlotAccess::Read) continue;
-                linker_.reporter.error(placeOf(b), "P042", "slots '" + a.says->name + "' and '" + b.says->name + "' of '" + pass.says->name +
-                                                               "' use '" + resourceOf(a).plan.name + "' at once, and one writes it",
+                linker_.reporter.error(placeOf(b), "P042",
+                                       "slots '" + a.says->name + "' and '" + b.says->name + "' of '" +
+                                           pass.says->name + "' use '" + resourceOf(a).plan.name +
+                                           "' at once, and one writes it",
                                        "write to another attachment");
             }
         }
@@ -245,6 +275,8 @@ private:
 
 }  // namespace
 
-void Linker::describeImages() { Describer(*this).run(); }
+void Linker::describeImages() {
+    Describer(*this).run();
+}
 
 }  // namespace pelage::passes

@@ -37,12 +37,14 @@ private:
 
     std::uint32_t versionFor(const Reference& reference) {
         switch (reference.root) {
-            case Root::Pass: return resultOf(reference);
+            case Root::Pass:
+                return resultOf(reference);
             case Root::Host:
                 if (!linker_.conditions.imports[reference.member]) return none;
                 [[fallthrough]];
             case Root::Attachment:
-            case Root::Constant: return linker_.resources[linker_.resource(reference)].base;
+            case Root::Constant:
+                return linker_.resources[linker_.resource(reference)].base;
         }
         return none;
     }
@@ -91,8 +93,8 @@ private:
         if (before.modifier != none) {
             const std::string other = linker_.passes[before.modifier].says->name + "." + before.modifierSlot;
             linker_.reporter.error(slot.source ? slot.source->place : slot.says->place, "P034",
-                                   "'" + image + "' is already " + (before.number == 0 ? "written" : "changed") + " by '" +
-                                       linker_.passes[before.modifier].says->name + "'",
+                                   "'" + image + "' is already " + (before.number == 0 ? "written" : "changed") +
+                                       " by '" + linker_.passes[before.modifier].says->name + "'",
                                    "continue from '" + other + "' with access readWrite");
             slot.state = State::Failed;
             return;
@@ -117,8 +119,9 @@ private:
             return;
         }
         const LinkedPass* pass = linker_.passNamed(last.owner);
-        linker_.reporter.error(last.place, "P044", "'" + title + "' needs '" + last.text() + "', but '" + last.owner + "' is off: " +
-                                                       (pass ? pass->whyOff : "unknown"),
+        linker_.reporter.error(last.place, "P044",
+                               "'" + title + "' needs '" + last.text() + "', but '" + last.owner +
+                                   "' is off: " + (pass ? pass->whyOff : "unknown"),
                                "name another source after it, or mark '" + title + "' optional");
     }
 
@@ -150,8 +153,10 @@ private:
         }
         if (each.optional || each.from.empty() || failedAlready(each.from.back())) return;
         const Reference& last = each.from.back();
-        linker_.reporter.error(last.place, "P044", "export '" + each.name + "' needs '" + last.text() + "', but '" + last.owner +
-                                                       "' is off", "name another source after it, or mark the export optional");
+        linker_.reporter.error(
+            last.place, "P044",
+            "export '" + each.name + "' needs '" + last.text() + "', but '" + last.owner + "' is off",
+            "name another source after it, or mark the export optional");
     }
 
     Linker& linker_;
@@ -181,6 +186,8 @@ std::uint32_t Linker::resource(const Reference& reference) {
     return at->second;
 }
 
-void Linker::resolveReferences() { Resolver(*this).run(); }
+void Linker::resolveReferences() {
+    Resolver(*this).run();
+}
 
 }  // namespace pelage::passes

@@ -37,29 +37,37 @@ std::string arrow(const PlanSlot& slot, bool writes) {
     if (!writes) return slot.name;
     static constexpr std::string_view loads[] = {"load", "clear", "dontCare"};
     const bool discards = slot.store == rhi::StoreOp::Discard;
-    return slot.name + "\n" + std::string(loads[static_cast<std::size_t>(slot.load)]) + (discards ? ", discard" : ", store");
+    return slot.name + "\n" + std::string(loads[static_cast<std::size_t>(slot.load)]) +
+           (discards ? ", discard" : ", store");
 }
 
 }  // namespace
 
 std::string Plan::dot() const {
-    std::string out = "digraph passes {\n    rankdir=LR;\n    node [fontname=\"sans-serif\"];\n    edge [fontname=\"sans-serif\"];\n";
+    std::string out =
+        "digraph passes {\n    rankdir=LR;\n    node [fontname=\"sans-serif\"];\n    edge [fontname=\"sans-serif\"];\n";
     for (std::size_t i = 0; i < passes.size(); ++i) {
         const PlanPass& pass = passes[i];
         const auto views = viewCounts.find(pass.view);
-        const std::string times = pass.forEachLayer && views != viewCounts.end() ? std::to_string(views->second) + " layers" : "";
+        const std::string times =
+            pass.forEachLayer && views != viewCounts.end() ? std::to_string(views->second) + " layers" : "";
         out += "    " + quoted("pass " + pass.name) + " [shape=box, label=" +
-               lines({std::to_string(i + 1) + ". " + pass.name, pass.drawList.empty() ? pass.shader : "list " + pass.drawList, times}) +
+               lines({std::to_string(i + 1) + ". " + pass.name,
+                      pass.drawList.empty() ? pass.shader : "list " + pass.drawList, times}) +
                "];\n";
     }
     for (std::size_t i = 0; i < resources.size(); ++i) {
         const PlanResource& resource = resources[i];
         const bool transient = resource.kind == PlanResource::Kind::Transient;
-        const std::string life = "passes " + std::to_string(resource.firstPass + 1) + ".." + std::to_string(resource.lastPass + 1);
-        out += "    " + quoted(resource.name) + " [shape=" + (transient ? "oval" : "hexagon") + ", label=" +
-               lines({resource.name, image(resource),
-                      transient ? std::to_string(resource.bytes) + " bytes, texture " + std::to_string(resource.allocation) : "", life}) +
-               "];\n";
+        const std::string life =
+            "passes " + std::to_string(resource.firstPass + 1) + ".." + std::to_string(resource.lastPass + 1);
+        out +=
+            "    " + quoted(resource.name) + " [shape=" + (transient ? "oval" : "hexagon") + ", label=" +
+            lines({resource.name, image(resource),
+                   transient ? std::to_string(resource.bytes) + " bytes, texture " + std::to_string(resource.allocation)
+                             : "",
+                   life}) +
+            "];\n";
     }
     for (const PlanPass& pass : passes) {
         for (const PlanSlot& slot : pass.slots) {
@@ -76,7 +84,8 @@ std::string Plan::dot() const {
         out += "    " + quoted("export " + name) + " [shape=note, label=" + quoted(name) + "];\n";
         out += "    " + quoted(resources[resource].name) + " -> " + quoted("export " + name) + ";\n";
     }
-    for (const std::string& text : culled) out += "    " + quoted("culled " + text) + " [shape=box, style=dashed, label=" + quoted(text) + "];\n";
+    for (const std::string& text : culled)
+        out += "    " + quoted("culled " + text) + " [shape=box, style=dashed, label=" + quoted(text) + "];\n";
     return out + "}\n";
 }
 

@@ -45,7 +45,8 @@ namespace {
 bool isName(std::string_view word) {
     const auto letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
     if (word.empty() || word.size() > 63 || !letter(word.front())) return false;
-    return std::all_of(word.begin(), word.end(), [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '_'; });
+    return std::all_of(word.begin(), word.end(),
+                       [&](char c) { return letter(c) || (c >= '0' && c <= '9') || c == '_'; });
 }
 
 void readReference(const Value& value, std::vector<Reference>& out, Reporter& reporter) {
@@ -84,7 +85,9 @@ public:
         info.name = member_.key;
         info.description = wordOf(value, "description");
         const std::string type = wordOf(value, "type");
-        info.type = type == "bool" ? SettingValue::Type::Bool : type == "enum" ? SettingValue::Type::Enum : SettingValue::Type::Uint;
+        info.type = type == "bool"   ? SettingValue::Type::Bool
+                    : type == "enum" ? SettingValue::Type::Enum
+                                     : SettingValue::Type::Uint;
         info.defaultValue.type = info.type;
         if (info.type == SettingValue::Type::Uint) {
             forbid({"values"}, type);
@@ -108,14 +111,16 @@ private:
     void forbid(std::initializer_list<std::string_view> keys, const std::string& type) {
         for (const std::string_view key : keys) {
             if (const Member* found = member_.value.member(key)) {
-                reporter_.error(found->place, "P040", "setting '" + member_.key + "' of type " + type + " has no \"" +
-                                                          std::string(key) + "\"", "remove it");
+                reporter_.error(
+                    found->place, "P040",
+                    "setting '" + member_.key + "' of type " + type + " has no \"" + std::string(key) + "\"",
+                    "remove it");
             }
         }
     }
     void wrongDefault(const std::string& expected, std::string hint = {}) {
-        reporter_.error(placeOf(member_.value, "default"), "P005", "default of setting '" + member_.key + "' must be " + expected,
-                        std::move(hint));
+        reporter_.error(placeOf(member_.value, "default"), "P005",
+                        "default of setting '" + member_.key + "' must be " + expected, std::move(hint));
     }
 
     void readUint(const Value& value, SettingInfo& info) {
@@ -127,8 +132,9 @@ private:
         info.max = number("max", ~0U);
         info.multipleOf = std::max(1U, number("multipleOf", 1));
         if (info.min > info.max) {
-            reporter_.error(placeOf(value, "min"), "P006", "setting '" + info.name + "' has min " + std::to_string(info.min) +
-                                                               " above max " + std::to_string(info.max));
+            reporter_.error(placeOf(value, "min"), "P006",
+                            "setting '" + info.name + "' has min " + std::to_string(info.min) + " above max " +
+                                std::to_string(info.max));
             return;
         }
         const Value* standard = value.find("default");
@@ -172,7 +178,8 @@ ImportDeclaration readImport(const Member& member) {
                                         : ImportDeclaration::Kind::Image;
     import.optional = flagOf(value, "optional", false);
     if (const Value* formats = value.find("formats")) {
-        for (const Value& format : formats->elements) import.formats.push_back(rhi::textureFormatFromName(format.string));
+        for (const Value& format : formats->elements)
+            import.formats.push_back(rhi::textureFormatFromName(format.string));
     }
     if (const Value* samples = value.find("samples")) {
         for (const Value& count : samples->elements) import.samples.push_back(wholeNumber(count.number, 1));
@@ -194,7 +201,8 @@ SizeDeclaration readSize(const Value& attachment, const std::string& name, Repor
         ++ways, size.kind = Kind::Like, size.like = like->string, size.place = like->place;
         if (const Value* scale = value->find("scale")) size.scale = scale->number;
     } else if (const Member* scale = value->member("scale")) {
-        reporter.error(scale->place, "P025", "size of 'att." + name + "': \"scale\" goes with \"like\"", "write \"frame\": scale");
+        reporter.error(scale->place, "P025", "size of 'att." + name + "': \"scale\" goes with \"like\"",
+                       "write \"frame\": scale");
     }
     if (const Value* square = value->find("square")) {
         ++ways, size.kind = Kind::Square, size.width = numberOrSetting(*square);
@@ -207,7 +215,8 @@ SizeDeclaration readSize(const Value& attachment, const std::string& name, Repor
         }
     }
     if (ways != 1) {
-        reporter.error(value->place, "P025", "size of 'att." + name + "' needs exactly one of frame, like, square and fixed");
+        reporter.error(value->place, "P025",
+                       "size of 'att." + name + "' needs exactly one of frame, like, square and fixed");
     }
     return size;
 }
@@ -221,7 +230,8 @@ AttachmentDeclaration readAttachment(const Member& member, Reporter& reporter) {
         for (const Value& other : others->elements) {
             attachment.formats.push_back(rhi::textureFormatFromName(other.string));
             if (rhi::isDepth(attachment.formats.back()) != rhi::isDepth(attachment.formats.front())) {
-                reporter.error(other.place, "P026", "a colour format and a depth format cannot stand in for each other");
+                reporter.error(other.place, "P026",
+                               "a colour format and a depth format cannot stand in for each other");
             }
         }
     }
@@ -273,12 +283,12 @@ std::shared_ptr<PassTree::Description> readDescription(const json::Document& doc
     if (const Value* lists = root.find("drawLists")) {
         for (const Value& list : lists->elements) description->drawLists.push_back({list.string, list.place});
     }
-    forEachMember(root, "attachments", [&](const Member& member) {
-        description->attachments.push_back(readAttachment(member, reporter));
-    });
+    forEachMember(root, "attachments",
+                  [&](const Member& member) { description->attachments.push_back(readAttachment(member, reporter)); });
     readPasses(root, *description, reporter);
     forEachMember(root, "exports", [&](const Member& member) {
-        ExportDeclaration made{.name = member.key, .optional = flagOf(member.value, "optional", false), .place = member.place};
+        ExportDeclaration made{
+            .name = member.key, .optional = flagOf(member.value, "optional", false), .place = member.place};
         made.fromPlace = placeOf(member.value, "from");
         if (const Value* from = member.value.find("from")) made.from = readReferences(*from, reporter);
         description->exports.push_back(std::move(made));

@@ -32,7 +32,8 @@ void readClear(const Value& clear, SlotDeclaration& slot, Reporter& reporter) {
     slot.clearPlace = clear.place;
     if (clear.isArray()) {
         if (clear.elements.size() != 4) return;
-        slot.clear = {clear.elements[0].number, clear.elements[1].number, clear.elements[2].number, clear.elements[3].number};
+        slot.clear = {clear.elements[0].number, clear.elements[1].number, clear.elements[2].number,
+                      clear.elements[3].number};
         return;
     }
     slot.clearIsDepth = true;
@@ -143,7 +144,8 @@ private:
         pass_.dispatchLike = wordOf(value_, "dispatchLike");
         pass_.dispatchPlace = placeOf(value_, "dispatchLike");
         if (value_.find("dispatch") && value_.find("dispatchLike")) {
-            reporter_.error(pass_.dispatchPlace, "P028", title() + " has both \"dispatch\" and \"dispatchLike\"", "remove one");
+            reporter_.error(pass_.dispatchPlace, "P028", title() + " has both \"dispatch\" and \"dispatchLike\"",
+                            "remove one");
         }
     }
 
@@ -155,7 +157,8 @@ private:
 
     void readConditions() {
         if (const Value* when = value_.find("enabledWhen")) {
-            pass_.enabledWhen = Expression::parse(when->string, when->place, vocabulary_, "enabledWhen of " + title(), reporter_);
+            pass_.enabledWhen =
+                Expression::parse(when->string, when->place, vocabulary_, "enabledWhen of " + title(), reporter_);
         }
         const Value* shader = value_.find("shader");
         pass_.shader.place = placeOf(value_, "shader");
@@ -163,7 +166,8 @@ private:
         if (shader->isString()) {
             pass_.shader.file = shader->string;
         } else if (const Value* when = shader->find("when")) {
-            pass_.shader.when = Expression::parse(when->string, when->place, vocabulary_, "shader of " + title(), reporter_);
+            pass_.shader.when =
+                Expression::parse(when->string, when->place, vocabulary_, "shader of " + title(), reporter_);
             pass_.shader.file = wordOf(*shader, "then");
             pass_.shader.otherwise = wordOf(*shader, "else");
         }

@@ -19,7 +19,8 @@ public:
         }
         std::map<std::string, std::uint32_t> effects;  // by name, so that the file's order does not matter
         for (std::uint32_t i = 0; i < linker_.passes.size(); ++i) {
-            if (linker_.passes[i].enabled && linker_.passes[i].says->sideEffects) effects[linker_.passes[i].says->name] = i;
+            if (linker_.passes[i].enabled && linker_.passes[i].says->sideEffects)
+                effects[linker_.passes[i].says->name] = i;
         }
         for (const auto& [name, index] : effects) roots.push_back(index);
         for (const std::uint32_t root : roots) keep(root);
@@ -47,7 +48,8 @@ private:
             const std::string& name = pass.says->name;
             culled[name] = name + ": " + (pass.enabled ? "no export needs its result" : "switched off, " + pass.whyOff);
             if (!pass.enabled) continue;
-            linker_.reporter.warning(pass.says->namePlace, "P048", "pass '" + name + "' is culled: no export needs its result",
+            linker_.reporter.warning(pass.says->namePlace, "P048",
+                                     "pass '" + name + "' is culled: no export needs its result",
                                      "export it, connect it, mark \"sideEffects\": true, or delete it");
         }
         for (auto& [name, text] : culled) linker_.plan.culled.push_back(std::move(text));
@@ -99,12 +101,13 @@ private:
             for (const LinkedSlot& slot : linker_.passes[index].slots) {
                 if (slot.in == none || slot.says->access != SlotAccess::Read) continue;
                 const Version& version = linker_.versions[slot.in];
-                if (version.modifier == none || version.modifier == index || !linker_.passes[version.modifier].live) continue;
+                if (version.modifier == none || version.modifier == index || !linker_.passes[version.modifier].live)
+                    continue;
                 const std::string modifier = linker_.passes[version.modifier].says->name;
                 linker_.reporter.warning(slot.source ? slot.source->place : slot.says->place, "P033",
                                          "'" + linker_.passes[index].says->name + "' reads '" +
-                                             linker_.resources[version.resource].plan.name + "' as it was before '" + modifier +
-                                             "' changed it",
+                                             linker_.resources[version.resource].plan.name + "' as it was before '" +
+                                             modifier + "' changed it",
                                          "did you mean '" + modifier + "." + version.modifierSlot + "'?");
             }
         }
@@ -114,8 +117,10 @@ private:
             const Version& version = linker_.versions[found->second];
             if (version.modifier == none || !linker_.passes[version.modifier].live) continue;
             const std::string modifier = linker_.passes[version.modifier].says->name;
-            linker_.reporter.warning(each.fromPlace, "P033", "export '" + each.name + "' shows '" +
-                                         linker_.resources[version.resource].plan.name + "' as '" + modifier + "' leaves it",
+            linker_.reporter.warning(each.fromPlace, "P033",
+                                     "export '" + each.name + "' shows '" +
+                                         linker_.resources[version.resource].plan.name + "' as '" + modifier +
+                                         "' leaves it",
                                      "did you mean '" + modifier + "." + version.modifierSlot + "'?");
         }
     }
@@ -128,6 +133,8 @@ private:
 
 }  // namespace
 
-void Linker::schedule() { Scheduler(*this).run(); }
+void Linker::schedule() {
+    Scheduler(*this).run();
+}
 
 }  // namespace pelage::passes

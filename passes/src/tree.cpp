@@ -47,12 +47,24 @@ Checked<std::shared_ptr<const PassTree>> PassTree::load(const std::string& path)
     return tree;
 }
 
-const std::string& PassTree::name() const { return description_->name; }
-const std::string& PassTree::file() const { return description_->file; }
-const std::vector<SettingInfo>& PassTree::settings() const { return description_->settingInfos; }
-std::vector<std::string> PassTree::drawLists() const { return namesOf(description_->drawLists); }
-std::vector<std::string> PassTree::exports() const { return namesOf(description_->exports); }
-const Diagnostics& PassTree::warnings() const { return description_->warnings; }
+const std::string& PassTree::name() const {
+    return description_->name;
+}
+const std::string& PassTree::file() const {
+    return description_->file;
+}
+const std::vector<SettingInfo>& PassTree::settings() const {
+    return description_->settingInfos;
+}
+std::vector<std::string> PassTree::drawLists() const {
+    return namesOf(description_->drawLists);
+}
+std::vector<std::string> PassTree::exports() const {
+    return namesOf(description_->exports);
+}
+const Diagnostics& PassTree::warnings() const {
+    return description_->warnings;
+}
 
 Checked<Plan> PassTree::compile(const HostDescription& host) const {
     Diagnostics out;

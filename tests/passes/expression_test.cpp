@@ -55,16 +55,17 @@ TEST(Expression, FollowsSettingsAndImports) {
 }
 
 TEST(Expression, RefusesWhatMeansNothing) {
-    for (const char* text : {"", "lights >", "(overlay", "overlay)", "overlay overlay", "lights in 2", "lights in [2", "host.has(Screen)",
-                             "host.has('Screen'", "lights > 'x", "lights @ 2", "&& overlay", "1..2 < lights", "lights > 1e999"}) {
+    for (const char* text :
+         {"", "lights >", "(overlay", "overlay)", "overlay overlay", "lights in 2", "lights in [2", "host.has(Screen)",
+          "host.has('Screen'", "lights > 'x", "lights @ 2", "&& overlay", "1..2 < lights", "lights > 1e999"}) {
         EXPECT_EQ(fault(text), "E001") << text;
     }
     EXPECT_EQ(fault("host.had('Screen')"), "E002");
     EXPECT_EQ(fault("ligths > 1"), "E002");
     EXPECT_EQ(fault("look == 'sofd'"), "E003");
     EXPECT_EQ(fault("look in ['soft', 'herd']"), "E003");
-    for (const char* text : {"lights", "'soft'", "2", "lights && overlay", "look == 2", "look < 'soft'", "overlay > 1", "!lights",
-                             "look in [1]"}) {
+    for (const char* text : {"lights", "'soft'", "2", "lights && overlay", "look == 2", "look < 'soft'", "overlay > 1",
+                             "!lights", "look in [1]"}) {
         EXPECT_EQ(fault(text), "E004") << text;
     }
 }

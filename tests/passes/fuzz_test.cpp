@@ -34,7 +34,8 @@ void attempt(const json::Value& root, const HostDescription& host, Tally& tally)
         if (!plan) return mustBeSaid(plan.error(), text);
         ++tally.unnoticed;
         for (const PlanPass& pass : plan->passes) {
-            for (const PlanSlot& slot : pass.slots) EXPECT_TRUE(slot.resource == ~0U || slot.resource < plan->resources.size());
+            for (const PlanSlot& slot : pass.slots)
+                EXPECT_TRUE(slot.resource == ~0U || slot.resource < plan->resources.size());
         }
         EXPECT_FALSE(plan->dot().empty());
     } catch (...) {
@@ -120,20 +121,30 @@ TEST(Fuzz, RandomTrees) {
         std::string attachments, passes;
         for (unsigned i = 0; i < count; ++i) {
             const std::string n = std::to_string(i);
-            attachments += (i ? "," : "") + std::string("\"A") + n + R"(": { "format": "RGBA8Unorm", "size": { "frame": 1 } })";
+            attachments +=
+                (i ? "," : "") + std::string("\"A") + n + R"(": { "format": "RGBA8Unorm", "size": { "frame": 1 } })";
             // Mostly the next ones, so that some trees are sound.
-            const auto any = [&] { return std::to_string(random() % 5 ? std::min(i + 1 + random() % 2, count - 1UL) : random() % count); };
-            const bool continues = random() % 2 == 0;
+            const auto any = [&] {
+                return std::to_string(random() % 5 ? std::min(i + 1 + random() % 2, count - 1UL) : random() % count);
+            };
+            const bool last = i + 1 == count;
+            const bool continues = !last && random() % 2 == 0;
+            const std::string in = last ? "const.black" : "P" + any() + ".out";
             std::string connect = continues ? "\"P" + any() + ".out\"" : "\"att.A" + (random() % 6 ? n : any()) + "\"";
             if (continues && random() % 2) connect = "[" + connect + ", \"att.A" + n + "\"]";
-            passes += (i ? "," : "") + std::string(R"({ "name": "P)") + n + R"(", "kind": "fullscreen", "shader": "x.frag",)" +
-                      (random() % 5 == 0 ? R"("enabled": false,)" : "") + (random() % 4 == 0 ? R"("after": ["P)" + any() + R"("],)" : "") +
+            passes += (i ? "," : "") + std::string(R"({ "name": "P)") + n +
+                      R"(", "kind": "fullscreen", "shader": "x.frag",)" +
+                      (random() % 9 == 0 ? R"("enabled": false,)" : "") +
+                      (random() % 6 == 0 ? R"("after": ["P)" + any() + R"("],)" : "") +
                       R"( "slots": { "in": { "access": "read", "as": "sampled", "bind": "u_in", "optional": )" +
-                      (random() % 2 ? "true" : "false") + R"( }, "out": { "access": ")" + (continues ? "readWrite" : "write") +
-                      R"(", "as": "color", "clear": [0, 0, 0, 0] } }, "connect": { "in": "P)" + any() + R"(.out", "out": )" + connect + "} }";
+                      (random() % 2 ? "true" : "false") + R"( }, "out": { "access": ")" +
+                      (continues ? "readWrite" : "write") +
+                      R"(", "as": "color", "clear": [0, 0, 0, 0] } }, "connect": { "in": ")" + in + R"(", "out": )" +
+                      connect + "} }";
         }
-        const std::string text = R"({ "format": "pelage.passtree/1", "name": "Random", "attachments": {)" + attachments + R"(}, "passes": [)" +
-                                 passes + R"(], "exports": { "Out": { "from": "P0.out", "optional": true } } })";
+        const std::string text = R"({ "format": "pelage.passtree/1", "name": "Random", "attachments": {)" +
+                                 attachments + R"(}, "passes": [)" + passes +
+                                 R"(], "exports": { "Out": { "from": "P0.out", "optional": true } } })";
         attempt(readJson(text), {.extent = {8, 8, 1}}, tally);
     }
     std::cout << tally.edits << " trees, " << tally.unnoticed << " give a plan\n";

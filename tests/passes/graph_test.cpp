@@ -111,7 +111,8 @@ protected:
 
     // Draws the triangle with a pipeline made for the targets of the pass.
     rhi::Result<void> drawTriangle(RasterContext& context) {
-        rhi::RenderPipelineDescriptor descriptor{.label = "triangle", .vertex = {.module = value(shader("triangle.vert"))}};
+        rhi::RenderPipelineDescriptor descriptor{.label = "triangle",
+                                                 .vertex = {.module = value(shader("triangle.vert"))}};
         descriptor.multisample.count = context.targets.samples;
         if (!context.targets.colors.empty()) descriptor.fragment = {.module = value(shader("triangle.frag"))};
         for (const rhi::TextureFormat format : context.targets.colors) descriptor.targets.push_back({.format = format});
@@ -129,14 +130,19 @@ protected:
     }
     void frame(Graph& graph, const FrameImports& imports = {}) {
         auto encoder = gpu.device.createCommandEncoder("frame");
-        pelage::test::succeed(graph.record(encoder, imports, [this](RasterContext& context) { return drawTriangle(context); }));
+        pelage::test::succeed(
+            graph.record(encoder, imports, [this](RasterContext& context) { return drawTriangle(context); }));
         run(encoder);
     }
     template <class T>
-    static T value(rhi::Result<T> result) { return pelage::test::value(std::move(result)); }
+    static T value(rhi::Result<T> result) {
+        return pelage::test::value(std::move(result));
+    }
 };
 
-bool inside(std::uint32_t x, std::uint32_t y, std::uint32_t side) { return x + y + 1 < side; }
+bool inside(std::uint32_t x, std::uint32_t y, std::uint32_t side) {
+    return x + y + 1 < side;
+}
 
 TEST_F(GraphTest, TriangleThroughAFullscreenPassIsExact) {
     Graph made = graph();
@@ -223,7 +229,8 @@ TEST_F(GraphTest, EachLayerIsARenderPassOfItsOwn) {
         EXPECT_EQ(views, (std::vector<std::uint32_t>{0, 1}));
         // The caster lies at 0.5: lit is what is as near or nearer. There is no sky, so black stands in.
         const bool reversed = depth == DepthConvention::Reversed;
-        const Pixel lit{static_cast<std::uint8_t>(reversed ? 255 : 0), static_cast<std::uint8_t>(reversed ? 0 : 255), 0, 255};
+        const Pixel lit{static_cast<std::uint8_t>(reversed ? 255 : 0), static_cast<std::uint8_t>(reversed ? 0 : 255), 0,
+                        255};
         EXPECT_EQ(read<Pixel>(made.exported("Lit"))[0], lit);
         const Pixel inverse{static_cast<std::uint8_t>(255 - lit[0]), static_cast<std::uint8_t>(255 - lit[1]), 255, 0};
         const auto copied = read<Pixel>(made.exported("Copy"));
@@ -250,10 +257,11 @@ TEST_F(GraphTest, ImportsAreBoundAndMayChangeEachFrame) {
     host.imports["Sky"] = {true, rhi::TextureFormat::RGBA8Unorm, {1, 1, 6}, 1};
     mustBuild(made, shadowTree, host);
     for (const std::uint8_t red : {std::uint8_t{255}, std::uint8_t{51}}) {
-        const rhi::Texture sky = value(gpu.device.createTexture({.label = "sky",
-                                                                 .size = {1, 1, 6},
-                                                                 .usage = rhi::TextureUsage::TextureBinding | rhi::TextureUsage::CopyDst,
-                                                                 .cubeCompatible = true}));
+        const rhi::Texture sky =
+            value(gpu.device.createTexture({.label = "sky",
+                                            .size = {1, 1, 6},
+                                            .usage = rhi::TextureUsage::TextureBinding | rhi::TextureUsage::CopyDst,
+                                            .cubeCompatible = true}));
         std::vector<std::uint8_t> bytes;
         for (int layer = 0; layer < 6; ++layer) bytes.insert(bytes.end(), {red, 0, 0, 255});
         pelage::test::succeed(gpu.device.queue().writeTexture({.texture = sky}, std::as_bytes(std::span(bytes)),
@@ -276,8 +284,11 @@ TEST_F(GraphTest, AFailedBuildKeepsTheOldPicture) {
         {edited(triangleTree, "tint.frag", "tin.frag"), "S001"},
         {edited(triangleTree, "\"gain\": { \"setting\": \"gain\" }", "\"gian\": { \"setting\": \"gain\" }"), "S020"},
         // The second slot of that bind is the one in Tint.
-        {edited(triangleTree, "\"kind\": \"fullscreen\", \"shader\": \"tint.frag\",\n      \"slots\": {\n        \"source\": { \"access\": \"read\", \"as\": \"sampled\", \"bind\": \"u_source\"",
-                "\"kind\": \"fullscreen\", \"shader\": \"tint.frag\",\n      \"slots\": {\n        \"source\": { \"access\": \"read\", \"as\": \"sampled\", \"bind\": \"u_sauce\""),
+        {edited(triangleTree,
+                "\"kind\": \"fullscreen\", \"shader\": \"tint.frag\",\n      \"slots\": {\n        \"source\": { "
+                "\"access\": \"read\", \"as\": \"sampled\", \"bind\": \"u_source\"",
+                "\"kind\": \"fullscreen\", \"shader\": \"tint.frag\",\n      \"slots\": {\n        \"source\": { "
+                "\"access\": \"read\", \"as\": \"sampled\", \"bind\": \"u_sauce\""),
          "S010 S011"},
         {edited(triangleTree, "\"shader\": \"tint.frag\"", "\"shader\": \"average.frag\""), "S012"},
     };
@@ -306,15 +317,17 @@ TEST_F(GraphTest, RasterPassesGetTheirBindGroups) {
     // A raster pass that samples: the callback asks for the group of its pipeline's layout.
     const std::string text = edited(shadowTree, "\"kind\": \"fullscreen\", \"shader\": \"shadowed.frag\"",
                                     "\"kind\": \"raster\", \"view\": \"lights\", \"drawList\": \"all\"");
-    const std::string cleared = edited(text, "\"color\": { \"access\": \"write\", \"as\": \"color\" }",
-                                       "\"color\": { \"access\": \"write\", \"as\": \"color\", \"load\": \"dontCare\" }");
+    const std::string cleared =
+        edited(text, "\"color\": { \"access\": \"write\", \"as\": \"color\" }",
+               "\"color\": { \"access\": \"write\", \"as\": \"color\", \"load\": \"dontCare\" }");
     Graph made = graph();
     mustBuild(made, cleared, {.extent = {4, 4, 1}});
     std::string missing;
     auto encoder = gpu.device.createCommandEncoder("frame");
     pelage::test::succeed(made.record(encoder, {}, [&](RasterContext& context) -> rhi::Result<void> {
         if (context.pass.name != "Light") return drawTriangle(context);
-        rhi::RenderPipelineDescriptor descriptor{.label = "light", .vertex = {.module = value(shader("fullscreen.vert"))}};
+        rhi::RenderPipelineDescriptor descriptor{.label = "light",
+                                                 .vertex = {.module = value(shader("fullscreen.vert"))}};
         descriptor.fragment = {.module = value(shader("shadowed.frag"))};
         descriptor.targets.push_back({.format = context.targets.colors.at(0)});
         const auto pipeline = value(gpu.device.createRenderPipeline(descriptor));

@@ -24,7 +24,8 @@ TEST(Plan, OrderFollowsFromData) {
 
 TEST(Plan, CulledPassesAreNamedWithTheReason) {
     const Plan made = plan(edited(wholeGrammar(), R"("Kept":   { "from": "Keep.to" },)", ""));
-    EXPECT_EQ(made.culled, (Names{"Keep: no export needs its result", "Present: switched off, not (host.has('Screen'))"}));
+    EXPECT_EQ(made.culled,
+              (Names{"Keep: no export needs its result", "Present: switched off, not (host.has('Screen'))"}));
     EXPECT_EQ(resource(made, "att.Kept"), nullptr);
 }
 
@@ -131,7 +132,8 @@ TEST(Plan, FarFollowsTheDepthConvention) {
     lent.depth = DepthConvention::Conventional;
     EXPECT_EQ(slot(plan(wholeGrammar(), lent), "Hair", "depth")->clearDepth, 1.0F);
     const std::string text = edited(wholeGrammar(), R"("as": "depth", "clear": { "depth": "far" } },
-        "color")", R"("as": "depth", "clear": { "depth": "near" } },
+        "color")",
+                                    R"("as": "depth", "clear": { "depth": "near" } },
         "color")");
     EXPECT_EQ(slot(plan(text, lent), "Hair", "depth")->clearDepth, 0.0F);
 }
@@ -144,7 +146,8 @@ TEST(Plan, LifetimesAndUsage) {
     EXPECT_EQ(map->usage, rhi::TextureUsage::RenderAttachment | rhi::TextureUsage::TextureBinding);
     EXPECT_EQ(resource(made, "att.Final")->lastPass, 7U) << "exported: read after the frame";
     EXPECT_TRUE(contains(resource(made, "att.Final")->usage, rhi::TextureUsage::CopySrc));
-    EXPECT_EQ(resource(made, "att.Table")->usage, rhi::TextureUsage::StorageBinding | rhi::TextureUsage::TextureBinding);
+    EXPECT_EQ(resource(made, "att.Table")->usage,
+              rhi::TextureUsage::StorageBinding | rhi::TextureUsage::TextureBinding);
 }
 
 TEST(Plan, ImagesOfOneShapeShareATextureWhenTheirLivesDoNotOverlap) {
@@ -152,14 +155,19 @@ TEST(Plan, ImagesOfOneShapeShareATextureWhenTheirLivesDoNotOverlap) {
     std::string attachments, passes, before = "host.In";
     for (int i = 0; i < 4; ++i) {
         const std::string n = std::to_string(i);
-        attachments += (i ? "," : "") + std::string("\"A") + n + R"(": { "format": "RGBA16Float", "size": { "frame": 1 } })";
-        passes += (i ? "," : "") + std::string(R"({ "name": "P)") + n + R"(", "kind": "fullscreen", "shader": "x.frag", "slots": {
+        attachments +=
+            (i ? "," : "") + std::string("\"A") + n + R"(": { "format": "RGBA16Float", "size": { "frame": 1 } })";
+        passes += (i ? "," : "") + std::string(R"({ "name": "P)") + n +
+                  R"(", "kind": "fullscreen", "shader": "x.frag", "slots": {
             "in": { "access": "read", "as": "sampled", "bind": "u_in" }, "out": { "access": "write", "as": "color" } },
-            "connect": { "in": ")" + before + R"(", "out": "att.A)" + n + "\" } }";
+            "connect": { "in": ")" +
+                  before + R"(", "out": "att.A)" + n + "\" } }";
         before = "P" + n + ".out";
     }
-    const std::string text = R"({ "format": "pelage.passtree/1", "name": "Chain", "imports": { "In": { "kind": "image", "access": "read" } },
-        "attachments": {)" + attachments + R"(}, "passes": [)" + passes + R"(], "exports": { "Out": { "from": "P3.out" } } })";
+    const std::string text =
+        R"({ "format": "pelage.passtree/1", "name": "Chain", "imports": { "In": { "kind": "image", "access": "read" } },
+        "attachments": {)" +
+        attachments + R"(}, "passes": [)" + passes + R"(], "exports": { "Out": { "from": "P3.out" } } })";
     HostDescription lent{.extent = {16, 16, 1}};
     lent.imports["In"] = {true, rhi::TextureFormat::RGBA16Float, {16, 16, 1}, 1};
     const Plan made = plan(text, lent);
@@ -190,9 +198,12 @@ TEST(Plan, FormatFallsBackWhenTheDeviceLacksIt) {
 
 TEST(Plan, ReadWriteWithClearBeginsAnAttachment) {
     const std::string text = edited(wholeGrammar(), R"("color": { "access": "readWrite", "as": "color" } },
-      "connect": { "depth": "Hair.depth", "color": "Hair.color" })", R"("color": { "access": "readWrite", "as": "color", "clear": [1, 0, 0, 1] } },
+      "connect": { "depth": "Hair.depth", "color": "Hair.color" })",
+                                    R"("color": { "access": "readWrite", "as": "color", "clear": [1, 0, 0, 1] } },
       "connect": { "depth": "Hair.depth", "color": ["Missing.color", "att.Spare"] })");
-    const Plan made = plan(edited(text, R"("attachments": {)", R"("attachments": { "Spare": { "format": "RGBA16Float", "size": { "like": "att.Hair" }, "samples": 4 },)"));
+    const Plan made = plan(edited(
+        text, R"("attachments": {)",
+        R"("attachments": { "Spare": { "format": "RGBA16Float", "size": { "like": "att.Hair" }, "samples": 4 },)"));
     const PlanSlot* color = slot(made, "Glass", "color");
     ASSERT_NE(color, nullptr);
     EXPECT_EQ(made.resources[color->resource].name, "att.Spare");

@@ -148,9 +148,12 @@ std::string quoted(const std::string& text) {
 std::string write(const json::Value& value, int indent) {
     const std::string pad(static_cast<std::size_t>(indent) + 1, ' ');
     switch (value.kind) {
-        case json::Kind::Null: return "null";
-        case json::Kind::Bool: return value.boolean ? "true" : "false";
-        case json::Kind::String: return quoted(value.string);
+        case json::Kind::Null:
+            return "null";
+        case json::Kind::Bool:
+            return value.boolean ? "true" : "false";
+        case json::Kind::String:
+            return quoted(value.string);
         case json::Kind::Number: {
             if (value.number == static_cast<double>(static_cast<long long>(value.number)))
                 return std::to_string(static_cast<long long>(value.number));
@@ -158,7 +161,8 @@ std::string write(const json::Value& value, int indent) {
         }
         case json::Kind::Array: {
             std::string out = "[";
-            for (const json::Value& each : value.elements) out += (out.size() > 1 ? ",\n" : "\n") + pad + write(each, indent + 1);
+            for (const json::Value& each : value.elements)
+                out += (out.size() > 1 ? ",\n" : "\n") + pad + write(each, indent + 1);
             return out + "]";
         }
         case json::Kind::Object: {
@@ -196,9 +200,15 @@ HostDescription host() {
     return made;
 }
 
-SettingValue flag(bool value) { return {SettingValue::Type::Bool, value ? 1U : 0U, {}}; }
-SettingValue whole(std::uint32_t value) { return {SettingValue::Type::Uint, value, {}}; }
-SettingValue word(std::string value) { return {SettingValue::Type::Enum, 0, std::move(value)}; }
+SettingValue flag(bool value) {
+    return {SettingValue::Type::Bool, value ? 1U : 0U, {}};
+}
+SettingValue whole(std::uint32_t value) {
+    return {SettingValue::Type::Uint, value, {}};
+}
+SettingValue word(std::string value) {
+    return {SettingValue::Type::Enum, 0, std::move(value)};
+}
 
 std::string codes(const Diagnostics& diagnostics) {
     std::string out;

@@ -19,7 +19,15 @@ const materials::Value* findInput(const std::vector<materials::CompiledMaterial:
     return found == inputs.end() ? nullptr : &found->value;
 }
 
-bool isBuiltin(const std::string& reference) { return reference.empty() || reference.starts_with("builtin."); }
+// What "builtin.asset" means for a texture input: the asset's own map, or a constant when it brings none.
+rhi::TextureView assetMap(const std::string& name, const GpuGeometry& geometry, std::string& standIn) {
+    if (name == "colorMap" || name == "opacityMap") return geometry.colorMap;
+    if (name == "strandIdMap") {
+        standIn = "builtin.grey";
+        return geometry.strandIdMap;
+    }
+    return {};
+}
 
 }  // namespace
 
@@ -102,13 +110,14 @@ Outcome<rhi::BindGroup> MaterialBindings::bindGroup(const Key& key, const rhi::B
                                                                        "', which no texture input of the material type fills",
                                                    "declare a texture2d input of this name"));
                 }
-                const bool builtin = isBuiltin(value->text);
+                std::string reference = value->text.empty() ? "builtin.white" : value->text;
                 rhi::TextureView view;
-                if (builtin && (slot.name == "colorMap" || slot.name == "opacityMap")) view = geometry.colorMap;
-                if (builtin && slot.name == "strandIdMap") view = geometry.strandIdMap;
+                if (reference == "builtin.asset") {
+                    reference = "builtin.white";
+                    view = assetMap(slot.name, geometry, reference);
+                }
                 if (!view) {
-                    auto loaded = uploads.texture(value->text.empty() ? "builtin.white" : value->text,
-                                                  slot.name == "colorMap");
+                    auto loaded = uploads.texture(reference, slot.name == "colorMap");
                     if (!loaded) return tl::unexpected(loaded.error());
                     view = *loaded;
                 }

@@ -18,7 +18,7 @@ Outcome<std::vector<std::byte>> fillBlock(const rhi::ReflectedBinding& block, co
 std::vector<rhi::ConstantEntry> declaredConstants(const rhi::ShaderModule& module,
                                                   const std::vector<rhi::ConstantEntry>& constants);
 
-/// Set 2 for one pipeline layout. `geometry` replaces built-in textures of the material by the asset's own.
+/// Set 2 for one pipeline layout. `geometry` gives the maps behind "builtin.asset".
 class MaterialBindings {
 public:
     MaterialBindings(rhi::Device device, rhi::Sampler sampler) : device_(std::move(device)), sampler_(sampler) {}

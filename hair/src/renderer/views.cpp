@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace pelage::hair {
 namespace {
@@ -104,7 +103,7 @@ FrameViews makeViews(const Scene& scene, std::uint32_t width, std::uint32_t heig
     bounds(scene, true, low, high);
     const glm::vec3 center = 0.5F * (low + high);
     const float radius = std::max(0.52F * glm::length(high - low), 1e-4F);
-    glm::vec3 ambient = scene.environment.enabled() ? scene.environment.meanRadiance() : glm::vec3(0.0F);
+    const glm::vec3 ambient = scene.environment.enabled() ? scene.environment.meanRadiance() : glm::vec3(0.0F);
     const float size = static_cast<float>(shadowSize);
     for (std::size_t i = 0; i < count; ++i) {
         const Light& light = scene.lights[i];
@@ -114,9 +113,6 @@ FrameViews makeViews(const Scene& scene, std::uint32_t width, std::uint32_t heig
         block.position = glm::vec4(light.position, point ? 1.0F : 0.0F);
         block.direction = glm::vec4(-unit(light.direction, {0, -1, 0}), -1.0F);
         block.power = glm::vec4(power, 0.0F);
-        // A beam of E_perp spread over all directions has the mean radiance E / 4 pi.
-        const glm::vec3 to = light.position - center;
-        ambient += power / (point ? std::max(glm::dot(to, to), 1e-4F) : 1.0F) / (4.0F * std::numbers::pi_v<float>);
         if (!light.castsShadow || views.shadows.size() >= shadowLights) continue;
         const LightView view = lightView(light, center, radius, size);
         block.direction.w = static_cast<float>(views.shadows.size());

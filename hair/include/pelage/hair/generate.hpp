@@ -27,6 +27,14 @@ struct GroomDescriptor {
 /// Ponytail: `length` is that of the tail; strands are longer by their way over the scalp to the tie.
 Groom makeGroom(const GroomDescriptor& descriptor);
 
+/// Each guide and `perGuide` copies of it, spread over the distance to the next root: what a renderer does with a groom
+/// that holds guides only. Deterministic in `seed`.
+Groom withFollowStrands(const Groom& guides, std::uint32_t perGuide, std::uint32_t seed);
+
+/// A width (m) at which the groom's strands cover what a head's 100,000 hairs would: at least its defaultWidth, at most
+/// 20 times that.
+float coveringWidth(const Groom& groom);
+
 struct CardsDescriptor {
     std::uint32_t cards = 180;          // clusters of strands, one card each
     std::uint32_t textureSize = 1024;   // atlas, power of two

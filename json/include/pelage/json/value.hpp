@@ -30,7 +30,7 @@ struct Value {
     bool isInteger = false;  // written without fraction or exponent
     std::string string = {};
     std::vector<Value> elements = {};  // Array
-    std::vector<Member> members = {};  // Object, in the order of the text
+    std::vector<Member> members;  // Object, in the order of the text; no "= {}", for Member is incomplete here
 
     /// The member called `key`, or null (also when this is no object).
     const Value* find(std::string_view key) const;

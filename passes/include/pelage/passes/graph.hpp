@@ -33,7 +33,8 @@ struct RasterContext {
     const Targets& targets;
     rhi::RenderPassEncoder& encoder;
     /// The bind group of set 1 for a pipeline's layout of that set: slots matched by shader resource name, samplers by
-    /// their names ("s_linear", "s_nearest", "s_shadow", "s_linearRepeat"). Cached. An error names what no slot provides.
+    /// their names ("s_linear", "s_nearest", "s_shadow", "s_linearRepeat"). Cached. An error names what no slot
+    /// provides.
     std::function<rhi::Result<rhi::BindGroup>(const rhi::BindGroupLayout&)> bindGroup;
     std::uint32_t draws = 0;  // the host adds what it draws; for PassReport
 };
@@ -46,8 +47,8 @@ struct FrameImports {
 
 struct PassReport {
     std::string name = {};
-    double gpuMilliseconds = 0;  // 0 without Feature::Timestamps
-    double cpuMilliseconds = 0;  // recording
+    double gpuMilliseconds = 0;                 // 0 without Feature::Timestamps
+    double cpuMilliseconds = 0;                 // recording
     std::uint64_t fragments = 0, vertices = 0;  // 0 without Feature::PipelineStatistics
     std::uint32_t draws = 0;
 };

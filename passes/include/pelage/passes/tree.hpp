@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A pass tree: the frame as data. Read from *.pass.json, checked against its schema, then compiled for given settings,
-// imports and extents into a Plan: order from data, what is culled, load and store, lifetimes. No device is needed here.
+// imports and extents into a Plan: order from data, what is culled, load and store, lifetimes. No device is needed
+// here.
 #pragma once
 
 #include <pelage/json/diagnostic.hpp>
@@ -103,8 +104,8 @@ struct PlanSlot {
     std::uint32_t resource = ~0U;  // ~0: optional and not connected
     rhi::LoadOp load = rhi::LoadOp::Load;
     rhi::StoreOp store = rhi::StoreOp::Store;
-    rhi::Color clear = {};       // colour
-    float clearDepth = 0;        // for the host's depth convention
+    rhi::Color clear = {};  // colour
+    float clearDepth = 0;   // for the host's depth convention
     bool blendPremultiplied = false;
     bool depthTestAlways = false;  // fullscreen passes that write depth
 };
@@ -120,13 +121,13 @@ struct PlanPass {
 };
 
 struct Plan {
-    std::vector<PlanPass> passes = {};         // in execution order
+    std::vector<PlanPass> passes = {};  // in execution order
     std::vector<PlanResource> resources = {};
     std::map<std::string, std::uint32_t> exports = {};  // export name -> resource index
-    std::vector<std::string> culled = {};      // "ToneMap: no export needs its result", "HairShadow: switched off …"
+    std::vector<std::string> culled = {};  // "ToneMap: no export needs its result", "HairShadow: switched off …"
     std::map<std::string, std::uint32_t> viewCounts = {};
     DepthConvention depth = DepthConvention::Reversed;
-    std::uint32_t allocations = 0;   // textures behind the transient images
+    std::uint32_t allocations = 0;     // textures behind the transient images
     std::uint64_t allocatedBytes = 0;  // of them; at most the sum over the transient resources
     Diagnostics warnings = {};
     /// Graphviz text of the compiled graph.
