@@ -13,12 +13,12 @@ layout(location = 2) in vec3 a_tangent;
 layout(location = 3) in vec2 a_uv;
 layout(location = 4) in vec3 a_strand;  // id, along, width in m
 
-// The forward pass tests its depth for equality against the depth pass.
-invariant gl_Position;
-
 void main() {
-    vec4 world = object.model * vec4(a_position, 1.0);
-    gl_Position = frame.viewProjection * world;
+    precise vec4 world = object.model * vec4(a_position, 1.0);
+    // The forward pass tests its depth for equality against the depth pass: the same module and no contraction make the
+    // positions equal to the bit. (`invariant` would say so, but Mesa 22.3 warns of it and ignores it.)
+    precise vec4 clip = frame.viewProjection * world;
+    gl_Position = clip;
     v_world = world.xyz;
     v_normal = mat3(object.normalMatrix) * a_normal;
     v_tangent = mat3(object.model) * a_tangent;

@@ -16,11 +16,11 @@ struct SamplerRow {
 rhi::Result<rhi::Texture> makeConstant(const rhi::Device& device, const std::string& name,
                                        std::array<std::uint8_t, 4> texel, rhi::TextureFormat format,
                                        std::uint32_t layers) {
-    auto texture = device.createTexture({.label = name,
-                                         .size = {1, 1, layers},
-                                         .format = format,
-                                         .usage = rhi::TextureUsage::TextureBinding | rhi::TextureUsage::CopyDst,
-                                         .cubeCompatible = layers == 6});
+    auto usage = rhi::TextureUsage::TextureBinding | rhi::TextureUsage::CopyDst;
+    // The layout in which depth is sampled is one of attachments.
+    if (rhi::isDepth(format)) usage = usage | rhi::TextureUsage::RenderAttachment;
+    auto texture = device.createTexture(
+        {.label = name, .size = {1, 1, layers}, .format = format, .usage = usage, .cubeCompatible = layers == 6});
     if (!texture) return texture;
     std::vector<std::uint8_t> bytes;
     for (std::uint32_t layer = 0; layer < layers; ++layer) bytes.insert(bytes.end(), texel.begin(), texel.end());

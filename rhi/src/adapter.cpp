@@ -30,7 +30,7 @@ Limits limitsOf(const VkPhysicalDeviceLimits& l, std::uint64_t maxBufferSize, bo
     limits.maxTextureArrayLayers = l.maxImageArrayLayers;
     limits.maxBindGroups = l.maxBoundDescriptorSets;
     limits.maxColorAttachments = std::min(l.maxColorAttachments, 8U);
-    limits.maxPushConstantsSize = l.maxPushConstantsSize;
+    limits.maxPushConstantsSize = std::min(l.maxPushConstantsSize, 256U);  // what encoders keep
     limits.minUniformBufferOffsetAlignment = static_cast<std::uint32_t>(l.minUniformBufferOffsetAlignment);
     limits.minStorageBufferOffsetAlignment = static_cast<std::uint32_t>(l.minStorageBufferOffsetAlignment);
     limits.maxComputeWorkgroupsPerDimension =

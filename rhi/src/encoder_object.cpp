@@ -124,7 +124,7 @@ void EncoderObject::closeScope(std::size_t packetIndex) {
 }
 
 void EncoderObject::setBindGroup(std::uint32_t index, const BindGroup& group, std::span<const std::uint32_t> offsets) {
-    if (!accept(group, cat("bind group ", index))) return;
+    if (!accept(group, "bind group ", index)) return;
     const auto& object = *group.get();
     const auto& layout = *object.layout;
     if (index >= device->info.limits.maxBindGroups)

@@ -73,10 +73,11 @@ struct EncoderObject {
     /// True when the call may go on; otherwise the reason is kept.
     bool ready(State wanted, std::string_view call);
 
-    template <class H>
-    bool accept(const H& handle, std::string_view what) {
-        if (auto ok = needHandle(handle, what); !ok) return fail(ok.error()), false;
-        if (auto ok = needSameDevice(*handle.get(), *device); !ok) return fail(ok.error()), false;
+    /// The handle is there, of this device, and kept. `what` is put together only for a message.
+    template <class H, class... Parts>
+    bool accept(const H& handle, const Parts&... what) {
+        if (!handle) return fail(needHandle(handle, cat(what...)).error()), false;
+        if (handle.get()->device != device) return fail(needSameDevice(*handle.get(), *device).error()), false;
         recording.keep(handle);
         return true;
     }

@@ -32,6 +32,9 @@ struct PassBuilder {
         if (!e.accept(handle, what)) return false;
         const auto& view = *handle.get();
         const auto& t = view.texture->descriptor;
+        if (view.texture->handle == VK_NULL_HANDLE)
+            return stop(ErrorCode::Surface,
+                        cat(view.texture->describe(), " belongs to a surface that was configured again since."));
         if (!contains(t.usage, TextureUsage::RenderAttachment))
             return stop(ErrorCode::InvalidUsage,
                         cat(view.texture->describe(), " was created without ",
@@ -227,20 +230,20 @@ void RenderPassEncoder::setBindGroup(std::uint32_t index, const BindGroup& group
 
 namespace {
 bool geometryBuffer(EncoderObject& e, const Buffer& buffer, BufferUsage usage, std::uint64_t offset, UseKind kind,
-                    std::string_view what) {
-    if (!e.accept(buffer, what)) return false;
+                    const detail::CommandName& what) {
+    if (!e.accept(buffer, what.word, what.number)) return false;
     auto& object = *buffer.get();
     if (!contains(object.descriptor.usage, usage)) {
         e.fail(invalid(ErrorCode::InvalidUsage, cat(object.describe(), " was created without ",
-                                                    detail::usageNames(usage), ", which ", what, " needs."))
+                                                    detail::usageNames(usage), ", which ", what.text(), " needs."))
                    .value());
         return false;
     }
     if (offset >= object.descriptor.size || offset % 4 != 0) {
-        e.fail(
-            invalid(ErrorCode::OutOfRange, cat(object.describe(), " has ", object.descriptor.size, " bytes; ", what,
-                                               " starts at byte ", offset, ", and a multiple of 4 inside is needed."))
-                .value());
+        e.fail(invalid(ErrorCode::OutOfRange,
+                       cat(object.describe(), " has ", object.descriptor.size, " bytes; ", what.text(),
+                           " starts at byte ", offset, ", and a multiple of 4 inside is needed."))
+                   .value());
         return false;
     }
     detail::Use use;
@@ -257,7 +260,8 @@ void RenderPassEncoder::setVertexBuffer(std::uint32_t slot, const Buffer& buffer
     if (slot >= 16)  // Vulkan promises 16 on every device
         return e.fail(
             invalid(ErrorCode::OutOfRange, cat("Vertex buffer slot ", slot, " is above the limit of 15.")).value());
-    if (!geometryBuffer(e, buffer, BufferUsage::Vertex, offset, UseKind::VertexBuffer, cat("vertex buffer ", slot)))
+    if (!geometryBuffer(e, buffer, BufferUsage::Vertex, offset, UseKind::VertexBuffer,
+                        detail::CommandName{"vertex buffer ", slot}))
         return;
     if (e.pass.vertexBuffers.size() <= slot) e.pass.vertexBuffers.resize(slot + 1);
     auto& bound = e.pass.vertexBuffers[slot];
@@ -269,7 +273,9 @@ void RenderPassEncoder::setVertexBuffer(std::uint32_t slot, const Buffer& buffer
 void RenderPassEncoder::setIndexBuffer(const Buffer& buffer, IndexFormat format, std::uint64_t offset) {
     if (!encoder_ || !encoder_->ready(State::RenderPass, "setIndexBuffer")) return;
     auto& e = *encoder_;
-    if (!geometryBuffer(e, buffer, BufferUsage::Index, offset, UseKind::IndexBuffer, "the index buffer")) return;
+    if (!geometryBuffer(e, buffer, BufferUsage::Index, offset, UseKind::IndexBuffer,
+                        detail::CommandName{"index buffer ", 0}))
+        return;
     e.pass.index = {buffer.shared(), offset};
     e.pass.indexFormat = format;
     e.add(packet::BindIndexBuffer{buffer.get(), offset,

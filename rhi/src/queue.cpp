@@ -150,13 +150,15 @@ bool Queue::isDone(Submission submission) const {
 
 Result<bool> Queue::wait(Submission submission, std::uint64_t timeoutNs) const {
     if (!device_) return detail::invalid(ErrorCode::InvalidHandle, "wait() was called on an empty queue.");
+    std::uint64_t last = 0;
     {
         const std::lock_guard lock(device_->queue.mutex);
-        if (submission.value > device_->queue.submitted)
-            return device_->reported<bool>(detail::invalid(
-                ErrorCode::OutOfRange, detail::cat("wait() was called for submission ", submission.value,
-                                                   "; the last one of this queue is ", device_->queue.submitted, '.')));
+        last = device_->queue.submitted;
     }
+    if (submission.value > last)
+        return device_->reported<bool>(
+            detail::invalid(ErrorCode::OutOfRange, detail::cat("wait() was called for submission ", submission.value,
+                                                               "; the last one of this queue is ", last, '.')));
     VkSemaphoreWaitInfo info = {VK_STRUCTURE_TYPE_SEMAPHORE_WAIT_INFO};
     info.semaphoreCount = 1;
     info.pSemaphores = &device_->queue.timeline;
@@ -171,17 +173,15 @@ Result<bool> Queue::wait(Submission submission, std::uint64_t timeoutNs) const {
 
 Result<void> Device::waitIdle() const {
     if (!object_) return detail::invalid(ErrorCode::InvalidHandle, "waitIdle() was called on an empty device.");
-    Submission last;
+    Result<Submission> last;
     {
         const std::lock_guard lock(object_->queue.mutex);
-        last.value = object_->queue.submitted;
-        if (!object_->queue.uploads->packets.empty()) {  // writes are work, too
-            auto sent = detail::submitLocked(*object_, {}, {});
-            if (!sent) return object_->reported<void>(detail::forward(sent.error()));
-            last = *sent;
-        }
+        last->value = object_->queue.submitted;
+        // Writes are work, too.
+        if (!object_->queue.uploads->packets.empty()) last = detail::submitLocked(*object_, {}, {});
     }
-    if (auto done = queue().wait(last); !done) return detail::forward(done.error());
+    if (!last) return object_->reported<void>(detail::forward(last.error()));
+    if (auto done = queue().wait(*last); !done) return detail::forward(done.error());
     object_->collect();
     return {};
 }

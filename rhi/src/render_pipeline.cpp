@@ -19,6 +19,9 @@ Result<VertexInput> vertexInput(const RenderPipelineDescriptor& d, RenderPipelin
     VertexInput out;
     const auto& inputs = shader.reflection.inputs;
     std::vector<bool> found(inputs.size());
+    if (d.vertexBuffers.size() > 16)  // what Vulkan promises on every device
+        return invalid(ErrorCode::OutOfRange,
+                       cat(object.describe(), " has ", d.vertexBuffers.size(), " vertex buffers; 16 are allowed."));
     object.vertexSlots.resize(d.vertexBuffers.size());
     for (std::uint32_t slot = 0; slot < d.vertexBuffers.size(); ++slot) {
         const auto& buffer = d.vertexBuffers[slot];

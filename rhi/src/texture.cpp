@@ -180,6 +180,9 @@ Result<std::shared_ptr<TextureViewObject>> makeView(const std::shared_ptr<Textur
     auto complete = completeView(*texture, wanted);
     if (!complete) return forward(complete.error());
     const auto& d = *complete;
+    if (texture->handle == VK_NULL_HANDLE)
+        return invalid(ErrorCode::Surface,
+                       cat(texture->describe(), " belongs to a surface that was configured again since."));
     constexpr auto viewable =
         TextureUsage::TextureBinding | TextureUsage::StorageBinding | TextureUsage::RenderAttachment;
     if (!any(texture->descriptor.usage & viewable))

@@ -48,7 +48,7 @@ materials::Material material(const std::string& preset, const std::vector<std::p
 
 namespace {
 const hair::Groom& groom() {
-    static const hair::Groom made = hair::makeGroom({.style = hair::Style::Wavy, .strands = 3000, .width = 250e-6F});
+    static const hair::Groom made = hair::makeGroom({.style = hair::Style::Wavy, .strands = 3000, .width = 700e-6F});
     return made;
 }
 }  // namespace

@@ -140,8 +140,9 @@ protected:
     }
 };
 
-bool inside(std::uint32_t x, std::uint32_t y, std::uint32_t side) {
-    return x + y + 1 < side;
+// +Y is up in clip space and rows of an image go down: the triangle is what lies below the diagonal from top left.
+bool inside(std::size_t x, std::size_t y) {
+    return x < y;
 }
 
 TEST_F(GraphTest, TriangleThroughAFullscreenPassIsExact) {
@@ -152,8 +153,8 @@ TEST_F(GraphTest, TriangleThroughAFullscreenPassIsExact) {
     ASSERT_EQ(pixels.size(), 32U * 32U);
     for (std::uint32_t y = 0; y < 32; ++y) {
         for (std::uint32_t x = 0; x < 32; ++x) {
-            if (x + y + 1 == 32) continue;  // the edge goes through these centres
-            const Pixel expected = inside(x, y, 32) ? Pixel{64, 128, 255, 255} : Pixel{0, 0, 0, 255};
+            if (x == y) continue;  // the edge goes through these centres
+            const Pixel expected = inside(x, y) ? Pixel{64, 128, 255, 255} : Pixel{0, 0, 0, 255};
             ASSERT_EQ(pixels[y * 32 + x], expected) << x << ", " << y;
         }
     }
@@ -167,7 +168,7 @@ TEST_F(GraphTest, SettingsReachSpecializationConstants) {
     host.settings["swap"] = {SettingValue::Type::Bool, 1, {}};
     mustBuild(made, triangleTree, host);
     frame(made);
-    EXPECT_EQ(read<Pixel>(made.exported("Picture"))[0], (Pixel{255, 255, 128, 255}));
+    EXPECT_EQ(read<Pixel>(made.exported("Picture"))[7 * 8], (Pixel{255, 255, 128, 255}));
 }
 
 TEST_F(GraphTest, SamplesAreAveraged) {
@@ -178,11 +179,11 @@ TEST_F(GraphTest, SamplesAreAveraged) {
     ASSERT_EQ(made.plan().passes.size(), 3U);
     frame(made);
     const auto pixels = read<Pixel>(made.exported("Picture"));
-    EXPECT_EQ(pixels[0], (Pixel{64, 128, 255, 255}));
-    EXPECT_EQ(pixels[32 * 32 - 1], (Pixel{0, 0, 0, 255}));
+    EXPECT_EQ(pixels[31 * 32], (Pixel{64, 128, 255, 255}));
+    EXPECT_EQ(pixels[31], (Pixel{0, 0, 0, 255}));
     int partly = 0;
     for (std::uint32_t x = 0; x < 32; ++x) {
-        const std::uint8_t blue = pixels[(31 - x) * 32 + x][2];
+        const std::uint8_t blue = pixels[x * 32 + x][2];
         partly += blue > 0 && blue < 255 ? 1 : 0;
     }
     EXPECT_GT(partly, 28) << "pixels on the edge are covered by some of their samples";
@@ -301,7 +302,7 @@ TEST_F(GraphTest, AFailedBuildKeepsTheOldPicture) {
         }
         ASSERT_TRUE(made.valid());
         frame(made);
-        EXPECT_EQ(read<Pixel>(made.exported("Picture"))[0], (Pixel{64, 128, 255, 255}));
+        EXPECT_EQ(read<Pixel>(made.exported("Picture"))[7 * 8], (Pixel{64, 128, 255, 255}));
     }
 }
 

@@ -70,6 +70,24 @@ std::optional<rhi::BlendState> blendFor(materials::Blend blend) {
     return {};
 }
 
+// Everything of a material and a pass that a pipeline depends on. By content: another material in the same place of the
+// scene must not find this one's pipelines.
+std::string pipelineKey(const materials::CompiledMaterial::Shader& shader, const passes::Targets& targets) {
+    std::string key = shader.use.vertex + "|" + shader.use.fragment;
+    const auto add = [&](auto value) { key += "|" + std::to_string(value); };
+    for (const rhi::ConstantEntry& constant : shader.constants) add(constant.value);
+    add(static_cast<int>(shader.state.cull));
+    add(static_cast<int>(shader.state.depthTest));
+    add(static_cast<int>(shader.state.blend));
+    add(shader.state.depthWrite ? 1 : 0);
+    add(shader.state.alphaToCoverage ? 1 : 0);
+    add(targets.samples);
+    add(static_cast<int>(targets.depth));
+    add(targets.depthReadOnly ? 1 : 0);
+    for (const rhi::TextureFormat format : targets.colors) add(static_cast<int>(format));
+    return key;
+}
+
 struct ObjectBlock {
     glm::mat4 model = glm::mat4(1.0F), normalMatrix = glm::mat4(1.0F);
     glm::vec4 lineWidth = {};
@@ -81,8 +99,6 @@ struct ObjectState {
     std::map<const void*, rhi::BindGroup> groups = {};  // by layout
     rhi::Buffer sortedIndices = {};
     std::map<std::string, rhi::RenderPipeline> pipelines = {};
-    std::uint64_t pipelineVersion = ~0ULL;
-    const materials::MaterialType* type = nullptr;
     float lineWidthMain = 1, lineWidthShadow = 1;
     const GpuGeometry* geometry = nullptr;
     const materials::CompiledMaterial* material = nullptr;
@@ -232,12 +248,9 @@ Outcome<void> Renderer::State::prepareObjects(Scene& scene, const FrameViews& fr
         ObjectState& state = objects[i];
         auto geometry = uploads.geometry(object.geometry);
         if (!geometry) return tl::unexpected(geometry.error());
-        if (state.geometry != *geometry || state.type != &object.material.type()) state.pipelines.clear();
+        if (state.geometry != *geometry) state.pipelines.clear();
         state.geometry = *geometry;
-        state.type = &object.material.type();
         state.material = &object.material.compile();
-        if (state.pipelineVersion != state.material->pipelineVersion) state.pipelines.clear();
-        state.pipelineVersion = state.material->pipelineVersion;
         if (!state.block) {
             auto buffer = device.createBuffer({.label = object.name + " object",
                                                .size = sizeof(ObjectBlock),
@@ -289,9 +302,7 @@ Outcome<void> Renderer::State::prepareObjects(Scene& scene, const FrameViews& fr
 rhi::Result<rhi::RenderPipeline> Renderer::State::pipeline(ObjectState& object,
                                                            const materials::CompiledMaterial::Shader& shader,
                                                            const passes::Targets& targets) {
-    std::string key = shader.use.name + "|" + std::to_string(targets.samples) + (shadowsOff ? "s" : "") +
-                      (environmentOff ? "e" : "") + "|" + std::to_string(static_cast<int>(targets.depth));
-    for (const rhi::TextureFormat format : targets.colors) key += "|" + std::to_string(static_cast<int>(format));
+    const std::string key = pipelineKey(shader, targets) + (shadowsOff ? "s" : "") + (environmentOff ? "e" : "");
     if (const auto found = object.pipelines.find(key); found != object.pipelines.end()) return found->second;
 
     const bool strands = object.geometry->source->topology == Topology::Lines;

@@ -39,11 +39,14 @@ Camera frameBox(const glm::vec3& low, const glm::vec3& high, const glm::vec3& di
     const glm::vec3 back = glm::normalize(direction);
     camera.up = std::abs(back.y) > 0.98F ? glm::vec3(0, 0, 1) : glm::vec3(0, 1, 0);
     const glm::vec3 right = glm::normalize(glm::cross(camera.up, back)), up = glm::cross(back, right);
-    // Extents of the box along the axes of the picture, and towards the eye.
-    const auto extent = [&](const glm::vec3& axis) { return glm::dot(glm::abs(axis), half); };
-    const float tangent = std::tan(0.5F * verticalFov);
-    const float distance = 1.08F * std::max(extent(up) / tangent, extent(right) / (tangent * std::max(aspect, 0.1F))) +
-                           extent(back);
+    // The nearest eye from which every corner of the box is inside the picture, with a margin.
+    const float tangent = std::tan(0.5F * verticalFov) / 1.06F;
+    float distance = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 c = half * glm::vec3((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
+        const float sideways = std::max(std::abs(glm::dot(c, up)), std::abs(glm::dot(c, right)) / std::max(aspect, 0.1F));
+        distance = std::max(distance, sideways / tangent + glm::dot(c, back));
+    }
     camera.eye = camera.target + back * distance;
     const float radius = glm::length(half);
     camera.nearPlane = std::max(0.01F * radius, 0.5F * (distance - 2.0F * radius));
@@ -64,9 +67,9 @@ std::vector<Light> portraitLights(const glm::vec3& low, const glm::vec3& high) {
         light.castsShadow = shadow;
         return light;
     };
-    return {point({0.75F, 0.85F, 1.0F}, 5.0F, {1.0F, 0.95F, 0.88F}, 5.5F, true),
-            point({-1.0F, 0.25F, 0.6F}, 6.0F, {0.75F, 0.85F, 1.0F}, 1.4F, true),
-            point({-0.55F, 0.75F, -1.0F}, 5.0F, {1.0F, 0.97F, 0.92F}, 6.0F, true)};
+    return {point({0.75F, 0.85F, 1.0F}, 5.0F, {1.0F, 0.95F, 0.88F}, 7.0F, true),
+            point({-1.0F, 0.25F, 0.6F}, 6.0F, {0.75F, 0.85F, 1.0F}, 2.2F, true),
+            point({-0.55F, 0.75F, -1.0F}, 5.0F, {1.0F, 0.97F, 0.92F}, 7.0F, true)};
 }
 
 }  // namespace pelage::hair

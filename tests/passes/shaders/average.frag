@@ -1,4 +1,5 @@
 #version 450
+#extension GL_EXT_samplerless_texture_functions : require
 layout(constant_id = 0) const int u_source_samples = 1;
 layout(set = 1, binding = 0) uniform texture2DMS u_source;
 layout(location = 0) out vec4 color;

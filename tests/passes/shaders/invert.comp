@@ -1,4 +1,5 @@
 #version 450
+#extension GL_EXT_samplerless_texture_functions : require
 layout(local_size_x = 8, local_size_y = 4) in;
 layout(set = 1, binding = 0) uniform texture2D u_source;
 layout(set = 1, binding = 1, rgba8) uniform writeonly image2D i_target;

@@ -1,4 +1,5 @@
 #version 450
+#extension GL_EXT_samplerless_texture_functions : require
 layout(constant_id = 3) const float gain = 1.0;
 layout(constant_id = 4) const bool swap = false;
 layout(set = 1, binding = 2) uniform texture2D u_source;

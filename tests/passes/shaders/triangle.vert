@@ -1,5 +1,5 @@
 #version 450
-// The half of the target above its antidiagonal, at a depth of 0.5.
+// The lower left half of the target (+Y is up), at a depth of 0.5.
 void main() {
     vec2 corner = vec2(gl_VertexIndex == 1 ? 1.0 : -1.0, gl_VertexIndex == 2 ? 1.0 : -1.0);
     gl_Position = vec4(corner, 0.5, 1.0);
