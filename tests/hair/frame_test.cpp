@@ -96,21 +96,6 @@ TEST_F(Frame, NoShadowLightNoShadowPass) {
     EXPECT_FALSE(ran(render(renderer, scene), "Shadow"));
 }
 
-// Every hidden fragment is rejected by the depth pass: the forward pass shades each visible pixel about once.
-TEST_F(Frame, ForwardPassShadesOnlyWhatIsSeen) {
-    if (!Gpu::get().device.has(rhi::Feature::PipelineStatistics)) GTEST_SKIP() << "the device counts no fragments";
-    hair::Scene scene = portrait(strands(), material("brown"));
-    hair::Renderer renderer = rendererFor(shippedTree());
-    const hair::Picture picture = render(renderer, scene);
-    std::uint64_t depth = 0, forward = 0;
-    for (const auto& pass : picture.report.passes) {
-        if (pass.name == "Depth") depth = pass.fragments;
-        if (pass.name == "ForwardHair") forward = pass.fragments;
-    }
-    EXPECT_GT(forward, 0U);
-    EXPECT_LT(forward, depth);
-}
-
 // The timestamps of the passes add up to the frame: what lavapipe bins is flushed (design: passes sum to the frame).
 TEST_F(Frame, PassTimesSumToTheFrame) {
     if (!Gpu::get().device.has(rhi::Feature::Timestamps)) GTEST_SKIP() << "the device has no timestamps";

@@ -85,7 +85,8 @@ TEST_F(Physics, HighlightMovesToRoot) {
 
 // L_o = S E: twice the light is twice the radiance (16-bit float targets: 2^-11 relative).
 TEST_F(Physics, RadianceIsLinearInLight) {
-    hair::Scene scene = portrait(cards(), material("brown", {{"environment.enable", "false"}}));
+    hair::Scene scene = portrait(cards(), material("brown"));
+    scene.environment = hair::Environment::none();
     const double once = meanLuminance(render(renderer(), scene));
     for (hair::Light& light : scene.lights) light.intensity *= 2;
     EXPECT_NEAR(meanLuminance(render(renderer(), scene)) / once, 2.0, 0.01);
@@ -115,7 +116,8 @@ TEST_F(Physics, WeightZeroIsTheLobeSwitchedOff) {
     hair::Scene on = portrait(cards(), material("brown"));
     const hair::Picture offPicture = render(renderer(), off), zeroPicture = render(renderer(), zero);
     EXPECT_EQ(offPicture.display, zeroPicture.display);
-    EXPECT_GT(compare(offPicture.display, render(renderer(), on).display).mean, 0.5);
+    // TRT is a few percent of the light, and hair a third of the picture.
+    EXPECT_GT(compare(offPicture.display, render(renderer(), on).display).mean, 0.1);
 }
 
 // Turning the whole scene, its lights, environment and camera together changes nothing. Shadows are off: the frustum of

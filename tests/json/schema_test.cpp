@@ -32,6 +32,7 @@ constexpr std::string_view schemaText = R"({
         "map": { "type": "object", "propertyNames": { "type": "string", "pattern": "^k" }, "maxProperties": 2,
                  "additionalProperties": { "type": "number" } },
         "coded": { "type": "array", "items": { "type": "number" }, "x-code": "M004", "x-hint": "say numbers" },
+        "two": { "oneOf": [{ "type": "integer" }, { "type": "number" }] },
         "free": true
     },
     "$defs": {
@@ -112,6 +113,7 @@ TEST(Schema, EveryKeywordReportsItsOwnWay) {
          "T:1:20: error J015: \"x\" is not of the right form for map.x; hint: must match ^k"},
         {R"({"name":"a","map":{"k.1":"x"}})", "T:1:26: error J012: map['k.1'] must be a number, found a string"},
         {R"({"name":"a","map":{"k1":1,"k2":1,"k3":1}})", "T:1:19: error J016: map needs at most 2 members, found 3"},
+        {R"({"name":"a","two":1})", "T:1:19: error J021: two fits more than one of its forms"},
         {R"({"name":"a","coded":[true]})",
          "T:1:22: error M004: coded[0] must be a number, found true or false; hint: say numbers"},
     };
