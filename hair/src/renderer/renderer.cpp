@@ -409,6 +409,7 @@ rhi::Result<void> Renderer::State::draw(Scene& scene, passes::RasterContext& con
                 frame.triangles += geometry.indices.size() / 3;
             }
             encoder.drawIndexed(static_cast<std::uint32_t>(geometry.indices.size()));
+            ++context.draws;
             encoder.popDebugGroup();
         }
     }
