@@ -3,8 +3,8 @@
 #include "gpu.hpp"
 #include "pictures.hpp"
 
-#include <glm/gtc/matrix_transform.hpp>
 #include <gtest/gtest.h>
+#include <glm/gtc/matrix_transform.hpp>
 
 #include <cmath>
 #include <numbers>
@@ -12,9 +12,12 @@
 namespace pelage::test {
 namespace {
 
-constexpr float radians(float degrees) { return degrees * std::numbers::pi_v<float> / 180.0F; }
+constexpr float radians(float degrees) {
+    return degrees * std::numbers::pi_v<float> / 180.0F;
+}
 
-// A fence of parallel cards in the plane z = 0, strand direction u = +x (root at -x), seen edge-on by nothing: normals +z.
+// A fence of parallel cards in the plane z = 0, strand direction u = +x (root at -x), seen edge-on by nothing: normals
+// +z.
 std::shared_ptr<const hair::Geometry> fence() {
     auto made = std::make_shared<hair::Geometry>();
     made->name = "fence";
@@ -33,17 +36,15 @@ std::shared_ptr<const hair::Geometry> fence() {
     return made;
 }
 
-const std::vector<std::pair<std::string, std::string>> onlyR = {{"blending.mode", "opaque"},
-                                                                {"scattering.enableTT", "false"},
-                                                                {"scattering.enableTRT", "false"},
-                                                                {"scattering.longitudinalRoughness", "0.05"},
-                                                                {"scattering.cuticleTilt", "-8"},
-                                                                {"shadowing.mode", "off"},
-                                                                {"environment.enable", "false"},
-                                                                {"globalScattering.mode", "off"}};
+const std::vector<std::pair<std::string, std::string>> onlyR = {
+    {"blending.mode", "opaque"},       {"scattering.enableTT", "false"},
+    {"scattering.enableTRT", "false"}, {"scattering.longitudinalRoughness", "0.05"},
+    {"scattering.cuticleTilt", "-8"},  {"shadowing.mode", "off"},
+    {"environment.enable", "false"},   {"globalScattering.mode", "off"}};
 
 // Radiance of the fence in the direction theta_o (towards +x, the tip, when positive), lit from straight above it.
-double radianceAt(hair::Renderer& renderer, const std::vector<std::pair<std::string, std::string>>& values, float thetaO) {
+double radianceAt(hair::Renderer& renderer, const std::vector<std::pair<std::string, std::string>>& values,
+                  float thetaO) {
     hair::Scene scene;
     scene.objects.push_back({.name = "fence", .geometry = fence(), .material = material("brown", values)});
     scene.environment = hair::Environment::none();
@@ -147,7 +148,8 @@ TEST_F(Physics, RotatingTheSceneChangesNothingButTheCamera) {
 // What lies behind the hair as the light sees it is darker, and fades instead of stopping.
 TEST_F(Physics, ExponentialShadowLiesBetweenNoneAndHard) {
     const auto luminance = [&](const char* mode) {
-        hair::Scene scene = portrait(strands(), material("brown", {{"shadowing.mode", mode}, {"environment.enable", "false"}}));
+        hair::Scene scene =
+            portrait(strands(), material("brown", {{"shadowing.mode", mode}, {"environment.enable", "false"}}));
         return meanLuminance(render(renderer(), scene));
     };
     const double off = luminance("off"), exponential = luminance("exponential"), hard = luminance("hard");
@@ -174,8 +176,8 @@ TEST_F(Physics, BlendingModesAgreeOnCoverage) {
 TEST_F(Physics, MultisamplingKeepsTheMean) {
     hair::Scene scene = portrait(cards(), material("brown", {{"blending.mode", "hashedAlpha"}}));
     const double four = meanLuminance(render(renderer(), scene));
-    const double one = meanLuminance(
-        render(renderer(), scene, 192, {{"msaa", {passes::SettingValue::Type::Enum, 0, "1"}}}));
+    const double one =
+        meanLuminance(render(renderer(), scene, 192, {{"msaa", {passes::SettingValue::Type::Enum, 0, "1"}}}));
     EXPECT_NEAR(one / four, 1.0, 0.03);
 }
 

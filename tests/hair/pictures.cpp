@@ -33,7 +33,8 @@ hair::Renderer makeRenderer(const std::string& tree) {
     return *renderer;
 }
 
-materials::Material material(const std::string& preset, const std::vector<std::pair<std::string, std::string>>& values) {
+materials::Material material(const std::string& preset,
+                             const std::vector<std::pair<std::string, std::string>>& values) {
     auto parsed = dataLibrary().material(preset);
     if (!parsed) {
         ADD_FAILURE() << parsed.error().text();
@@ -130,7 +131,8 @@ Difference compare(const std::vector<std::uint8_t>& a, const std::vector<std::ui
 
 namespace {
 
-void writePng(const std::string& path, std::uint32_t width, std::uint32_t height, const std::vector<std::uint8_t>& rgba) {
+void writePng(const std::string& path, std::uint32_t width, std::uint32_t height,
+              const std::vector<std::uint8_t>& rgba) {
     EXPECT_NE(stbi_write_png(path.c_str(), int(width), int(height), 4, rgba.data(), int(width) * 4), 0)
         << "cannot write " << path;
 }
@@ -174,7 +176,8 @@ void expectGolden(const hair::Picture& picture, const std::string& name) {
         writePng(std::string(PELAGE_GOLDEN_FAILURES) + "/" + name + ".png", picture.width * 3, picture.height,
                  sideBySide(picture, golden->texels));
     }
-    EXPECT_TRUE(same) << name << ": mean difference " << difference.mean << "/255 (at most 0.5), " << difference.outliers * 100
+    EXPECT_TRUE(same) << name << ": mean difference " << difference.mean << "/255 (at most 0.5), "
+                      << difference.outliers * 100
                       << " % of pixels off by more than 16/255 (at most 0.4 %); golden, picture and difference x 8 in "
                       << PELAGE_GOLDEN_FAILURES << "/" << name << ".png";
 }

@@ -41,10 +41,10 @@ struct Difference {
 };
 Difference compare(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b);
 
-/// Compares the display picture with tests/goldens/NAME.png: mean difference at most 0.5/255 and at most 0.4 % of pixels
-/// off by more than 16/255 (another CPU's vector width rounds differently at the edges of strands). On failure the
-/// golden, the picture and eight times their difference are written side by side to PELAGE_GOLDEN_FAILURES.
-/// With the environment variable PELAGE_UPDATE_GOLDENS set the golden is written instead and the test fails, so that it
+/// Compares the display picture with tests/goldens/NAME.png: mean difference at most 0.5/255 and at most 0.4 % of
+/// pixels off by more than 16/255 (another CPU's vector width rounds differently at the edges of strands). On failure
+/// the golden, the picture and eight times their difference are written side by side to PELAGE_GOLDEN_FAILURES. With
+/// the environment variable PELAGE_UPDATE_GOLDENS set the golden is written instead and the test fails, so that it
 /// cannot stay set.
 void expectGolden(const hair::Picture& picture, const std::string& name);
 

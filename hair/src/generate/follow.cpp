@@ -53,7 +53,8 @@ Groom withFollowStrands(const Groom& guides, std::uint32_t perGuide, std::uint32
         const std::uint32_t begin = guides.firstPoint[s], end = guides.firstPoint[s + 1];
         for (std::uint32_t copy = 0; copy <= perGuide; ++copy) {
             // The guide itself, then copies moved aside at the root and a little more towards the tip.
-            const glm::vec3 aside = copy == 0 ? glm::vec3(0.0F) : random.onSphere() * (spacing * std::sqrt(random.unit()));
+            const glm::vec3 aside =
+                copy == 0 ? glm::vec3(0.0F) : random.onSphere() * (spacing * std::sqrt(random.unit()));
             const glm::vec3 spread = copy == 0 ? glm::vec3(0.0F) : random.onSphere() * (0.8F * spacing);
             for (std::uint32_t i = begin; i < end; ++i) {
                 const float along = float(i - begin) / float(std::max(end - begin, 2U) - 1);
@@ -76,7 +77,8 @@ float coveringWidth(const Groom& groom) {
     const glm::vec3 size = high - low;
     // Seen from the side with the largest area, strands of this width lie about two deep.
     const float area = std::max({size.x * size.y, size.y * size.z, size.z * size.x});
-    return std::clamp(2.0F * area / std::max(totalLength(groom), 1e-6F), groom.defaultWidth, 20.0F * groom.defaultWidth);
+    return std::clamp(2.0F * area / std::max(totalLength(groom), 1e-6F), groom.defaultWidth,
+                      20.0F * groom.defaultWidth);
 }
 
 }  // namespace pelage::hair

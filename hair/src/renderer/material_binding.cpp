@@ -15,7 +15,8 @@ Diagnostic blockFault(const std::string& shader, const std::string& text, const 
 
 const materials::Value* findInput(const std::vector<materials::CompiledMaterial::InputValue>& inputs,
                                   const std::string& name) {
-    const auto found = std::find_if(inputs.begin(), inputs.end(), [&](const auto& input) { return input.name == name; });
+    const auto found =
+        std::find_if(inputs.begin(), inputs.end(), [&](const auto& input) { return input.name == name; });
     return found == inputs.end() ? nullptr : &found->value;
 }
 
@@ -31,15 +32,15 @@ rhi::TextureView assetMap(const std::string& name, const GpuGeometry& geometry, 
 
 }  // namespace
 
-Outcome<std::vector<std::byte>> fillBlock(const rhi::ReflectedBinding& block, const materials::CompiledMaterial& material,
-                                          const std::string& shaderLabel) {
+Outcome<std::vector<std::byte>> fillBlock(const rhi::ReflectedBinding& block,
+                                          const materials::CompiledMaterial& material, const std::string& shaderLabel) {
     std::vector<std::byte> bytes(block.blockSize);
     for (const rhi::BlockMember& member : block.members) {
         const materials::Value* value = findInput(material.inputs, member.name);
         if (value == nullptr) {
-            return tl::unexpected(blockFault(shaderLabel, "the uniform block has '" + member.name +
-                                                            "', which no input of the material type fills",
-                                           "declare the input in the material type, or delete the member"));
+            return tl::unexpected(blockFault(
+                shaderLabel, "the uniform block has '" + member.name + "', which no input of the material type fills",
+                "declare the input in the material type, or delete the member"));
         }
         std::array<float, 4> number = value->number;
         const bool whole = value->type == materials::ValueType::Bool || value->type == materials::ValueType::Int ||
@@ -47,14 +48,17 @@ Outcome<std::vector<std::byte>> fillBlock(const rhi::ReflectedBinding& block, co
         if (whole) number[0] = static_cast<float>(value->integer);
         const std::size_t size = std::size_t{member.components} * 4;
         if (member.columns != 1 || member.arrayLength != 1 || size > 16 || member.offset + size > bytes.size()) {
-            return tl::unexpected(blockFault(shaderLabel, "member '" + member.name + "' of the uniform block is no scalar or "
-                                                        "vector of 4 bytes a component",
-                                           "use float, int, uint, bool or vectors of them"));
+            return tl::unexpected(blockFault(shaderLabel,
+                                             "member '" + member.name +
+                                                 "' of the uniform block is no scalar or "
+                                                 "vector of 4 bytes a component",
+                                             "use float, int, uint, bool or vectors of them"));
         }
         if (member.scalar == rhi::ScalarType::Float) {
             std::memcpy(bytes.data() + member.offset, number.data(), size);
         } else {
-            const auto integer = static_cast<std::int32_t>(whole ? value->integer : static_cast<std::int64_t>(number[0]));
+            const auto integer =
+                static_cast<std::int32_t>(whole ? value->integer : static_cast<std::int64_t>(number[0]));
             std::memcpy(bytes.data() + member.offset, &integer, 4);
         }
     }
@@ -93,22 +97,26 @@ Outcome<rhi::BindGroup> MaterialBindings::bindGroup(const Key& key, const rhi::B
                 if (!filled) return tl::unexpected(filled.error());
                 bytes = std::move(*filled);
                 if (!entry.block || entry.block.size() != bytes.size()) {
-                    auto buffer = device_.createBuffer({.label = shader.label() + " material",
-                                                        .size = bytes.size(),
-                                                        .usage = rhi::BufferUsage::Uniform | rhi::BufferUsage::CopyDst});
+                    auto buffer =
+                        device_.createBuffer({.label = shader.label() + " material",
+                                              .size = bytes.size(),
+                                              .usage = rhi::BufferUsage::Uniform | rhi::BufferUsage::CopyDst});
                     if (!buffer) return tl::unexpected(toDiagnostic(buffer.error()));
                     entry = {.block = *buffer};
                 }
                 entries.push_back({slot.binding, rhi::BufferBinding{entry.block, 0, bytes.size()}});
                 break;
             }
-            case rhi::BindingType::Sampler: entries.push_back({slot.binding, sampler_}); break;
+            case rhi::BindingType::Sampler:
+                entries.push_back({slot.binding, sampler_});
+                break;
             default: {
                 const materials::Value* value = findInput(material.textures, slot.name);
                 if (value == nullptr) {
-                    return tl::unexpected(blockFault(shader.label(), "the shader samples '" + slot.name +
-                                                                       "', which no texture input of the material type fills",
-                                                   "declare a texture2d input of this name"));
+                    return tl::unexpected(blockFault(
+                        shader.label(),
+                        "the shader samples '" + slot.name + "', which no texture input of the material type fills",
+                        "declare a texture2d input of this name"));
                 }
                 std::string reference = value->text.empty() ? "builtin.white" : value->text;
                 rhi::TextureView view;
@@ -132,7 +140,8 @@ Outcome<rhi::BindGroup> MaterialBindings::bindGroup(const Key& key, const rhi::B
         entry.bytes = std::move(bytes);
     }
     if (!entry.group || views != entry.views) {
-        auto group = device_.createBindGroup({.label = shader.label() + " material", .layout = layout, .entries = entries});
+        auto group =
+            device_.createBindGroup({.label = shader.label() + " material", .layout = layout, .entries = entries});
         if (!group) return tl::unexpected(toDiagnostic(group.error()));
         entry.group = *group;
         entry.views = std::move(views);

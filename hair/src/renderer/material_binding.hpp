@@ -11,8 +11,8 @@ namespace pelage::hair {
 
 /// The bytes of the uniform block of set 2, from the inputs of the material. An input whose member is missing is not an
 /// error (another shader of the material may use it); a member that no input fills is.
-Outcome<std::vector<std::byte>> fillBlock(const rhi::ReflectedBinding& block, const materials::CompiledMaterial& material,
-                                          const std::string& shaderLabel);
+Outcome<std::vector<std::byte>> fillBlock(const rhi::ReflectedBinding& block,
+                                          const materials::CompiledMaterial& material, const std::string& shaderLabel);
 
 /// Those of `constants` that the module declares.
 std::vector<rhi::ConstantEntry> declaredConstants(const rhi::ShaderModule& module,
@@ -29,9 +29,9 @@ public:
         std::string shader = {};
         auto operator<=>(const Key&) const = default;
     };
-    Outcome<rhi::BindGroup> bindGroup(const Key& key, const rhi::BindGroupLayout& layout, const rhi::ShaderModule& shader,
-                                      const materials::CompiledMaterial& material, const GpuGeometry& geometry,
-                                      Uploads& uploads);
+    Outcome<rhi::BindGroup> bindGroup(const Key& key, const rhi::BindGroupLayout& layout,
+                                      const rhi::ShaderModule& shader, const materials::CompiledMaterial& material,
+                                      const GpuGeometry& geometry, Uploads& uploads);
     void clear() { entries_.clear(); }
 
 private:

@@ -10,7 +10,9 @@
 namespace pelage::hair {
 namespace {
 
-std::uint8_t toByte(float value) { return static_cast<std::uint8_t>(std::clamp(value, 0.0F, 1.0F) * 255.0F + 0.5F); }
+std::uint8_t toByte(float value) {
+    return static_cast<std::uint8_t>(std::clamp(value, 0.0F, 1.0F) * 255.0F + 0.5F);
+}
 
 std::array<float, 256> decodeTable(bool srgb) {
     std::array<float, 256> table = {};

@@ -21,8 +21,7 @@ std::vector<std::uint32_t> backToFront(const Geometry& geometry, const glm::mat4
     }
     std::vector<std::uint32_t> order(count);
     std::iota(order.begin(), order.end(), 0U);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return depth[a] > depth[b]; });
+    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return depth[a] > depth[b]; });
     std::vector<std::uint32_t> indices(count * corners);
     for (std::size_t i = 0; i < count; ++i) {
         for (std::size_t c = 0; c < corners; ++c) indices[i * corners + c] = geometry.indices[order[i] * corners + c];

@@ -21,7 +21,8 @@ tl::unexpected<Diagnostic> failed(const rhi::Result<T>& result) {
 
 Outcome<rhi::Buffer> makeBuffer(const rhi::Device& device, const std::string& label, rhi::BufferUsage usage,
                                 std::span<const std::byte> bytes) {
-    auto buffer = device.createBuffer({.label = label, .size = bytes.size(), .usage = usage | rhi::BufferUsage::CopyDst});
+    auto buffer =
+        device.createBuffer({.label = label, .size = bytes.size(), .usage = usage | rhi::BufferUsage::CopyDst});
     if (!buffer) return failed(buffer);
     if (auto written = device.queue().writeBuffer(*buffer, 0, bytes); !written) return failed(written);
     return *buffer;
@@ -79,21 +80,19 @@ Outcome<rhi::TextureView> Uploads::texture(const std::string& reference, bool sr
 Outcome<rhi::TextureView> Uploads::upload(const Image8& image, const std::string& label) {
     const std::vector<Image8> levels = mipChain(image);
     const bool one = levels.front().channels == 1;
-    auto texture = device_.createTexture(
-        {.label = label,
-         .size = {image.width, image.height, 1},
-         .mipLevelCount = static_cast<std::uint32_t>(levels.size()),
-         .format = one           ? rhi::TextureFormat::R8Unorm
-                   : image.srgb ? rhi::TextureFormat::RGBA8UnormSrgb
-                                 : rhi::TextureFormat::RGBA8Unorm,
-         .usage = rhi::TextureUsage::TextureBinding | rhi::TextureUsage::CopyDst});
+    auto texture = device_.createTexture({.label = label,
+                                          .size = {image.width, image.height, 1},
+                                          .mipLevelCount = static_cast<std::uint32_t>(levels.size()),
+                                          .format = one          ? rhi::TextureFormat::R8Unorm
+                                                    : image.srgb ? rhi::TextureFormat::RGBA8UnormSrgb
+                                                                 : rhi::TextureFormat::RGBA8Unorm,
+                                          .usage = rhi::TextureUsage::TextureBinding | rhi::TextureUsage::CopyDst});
     if (!texture) return failed(texture);
     for (std::uint32_t level = 0; level < levels.size(); ++level) {
         const Image8& mip = levels[level];
-        auto written = device_.queue().writeTexture({.texture = *texture, .mipLevel = level},
-                                                    std::as_bytes(std::span(mip.texels)),
-                                                    {.bytesPerRow = mip.width * mip.channels, .rowsPerImage = mip.height},
-                                                    {mip.width, mip.height, 1});
+        auto written = device_.queue().writeTexture(
+            {.texture = *texture, .mipLevel = level}, std::as_bytes(std::span(mip.texels)),
+            {.bytesPerRow = mip.width * mip.channels, .rowsPerImage = mip.height}, {mip.width, mip.height, 1});
         if (!written) return failed(written);
     }
     auto view = texture->createView();
@@ -123,7 +122,8 @@ Outcome<rhi::Texture> Uploads::irradiance(const Environment& environment) {
             for (std::uint32_t x = 0; x < size; ++x) {
                 const float s = 2.0F * (static_cast<float>(x) + 0.5F) / size - 1.0F;
                 const float t = 2.0F * (static_cast<float>(y) + 0.5F) / size - 1.0F;
-                const glm::vec3 directions[6] = {{1, -t, -s}, {-1, -t, s}, {s, 1, t}, {s, -1, -t}, {s, -t, 1}, {-s, -t, -1}};
+                const glm::vec3 directions[6] = {{1, -t, -s}, {-1, -t, s}, {s, 1, t},
+                                                 {s, -1, -t}, {s, -t, 1},  {-s, -t, -1}};
                 const glm::vec3 value =
                     glm::min(environment.irradiance(glm::normalize(directions[face])), glm::vec3(6e4F));
                 std::uint16_t* out = &texels[((std::size_t{face} * size + y) * size + x) * 4];

@@ -26,8 +26,8 @@ std::array<float, 9> basis(const glm::vec3& d) {
 }
 
 // Convolution with the clamped cosine: pi, 2 pi / 3, pi / 4 by band.
-constexpr std::array<float, 9> cosineLobe = {pi,        2 * pi / 3, 2 * pi / 3, 2 * pi / 3, pi / 4,
-                                             pi / 4,    pi / 4,     pi / 4,     pi / 4};
+constexpr std::array<float, 9> cosineLobe = {pi,     2 * pi / 3, 2 * pi / 3, 2 * pi / 3, pi / 4,
+                                             pi / 4, pi / 4,     pi / 4,     pi / 4};
 
 // Integrates `radiance` over the sphere on a grid of equal steps in theta and phi.
 template <class Function>

@@ -43,8 +43,10 @@ Camera frameBox(const glm::vec3& low, const glm::vec3& high, const glm::vec3& di
     const float tangent = std::tan(0.5F * verticalFov) / 1.06F;
     float distance = 0;
     for (int corner = 0; corner < 8; ++corner) {
-        const glm::vec3 c = half * glm::vec3((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
-        const float sideways = std::max(std::abs(glm::dot(c, up)), std::abs(glm::dot(c, right)) / std::max(aspect, 0.1F));
+        const glm::vec3 c =
+            half * glm::vec3((corner & 1) != 0 ? 1 : -1, (corner & 2) != 0 ? 1 : -1, (corner & 4) != 0 ? 1 : -1);
+        const float sideways =
+            std::max(std::abs(glm::dot(c, up)), std::abs(glm::dot(c, right)) / std::max(aspect, 0.1F));
         distance = std::max(distance, sideways / tangent + glm::dot(c, back));
     }
     camera.eye = camera.target + back * distance;

@@ -36,9 +36,9 @@ Groom withFollowStrands(const Groom& guides, std::uint32_t perGuide, std::uint32
 float coveringWidth(const Groom& groom);
 
 struct CardsDescriptor {
-    std::uint32_t cards = 180;          // clusters of strands, one card each
-    std::uint32_t textureSize = 1024;   // atlas, power of two
-    std::uint32_t segments = 12;        // quads along a card
+    std::uint32_t cards = 180;         // clusters of strands, one card each
+    std::uint32_t textureSize = 1024;  // atlas, power of two
+    std::uint32_t segments = 12;       // quads along a card
     std::uint32_t seed = 1;
 };
 /// Cards that stand for a groom: strands clustered by root and shape, one curved strip per cluster along its mean

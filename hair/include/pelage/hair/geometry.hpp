@@ -55,9 +55,10 @@ struct Geometry {
 struct Groom {
     std::string name = {};
     std::vector<glm::vec3> points = {};
-    std::vector<std::uint32_t> firstPoint = {};  // strandCount + 1 entries: strand s is [firstPoint[s], firstPoint[s+1])
-    std::vector<float> widths = {};              // m, diameter per point; empty: `defaultWidth` everywhere
-    float defaultWidth = 80e-6F;                 // m, a human hair
+    std::vector<std::uint32_t> firstPoint =
+        {};                          // strandCount + 1 entries: strand s is [firstPoint[s], firstPoint[s+1])
+    std::vector<float> widths = {};  // m, diameter per point; empty: `defaultWidth` everywhere
+    float defaultWidth = 80e-6F;     // m, a human hair
     std::uint32_t strandCount() const {
         return firstPoint.empty() ? 0 : static_cast<std::uint32_t>(firstPoint.size() - 1);
     }

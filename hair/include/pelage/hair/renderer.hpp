@@ -16,7 +16,7 @@ namespace pelage::hair {
 struct FrameSettings {
     std::uint32_t width = 640, height = 640;
     std::map<std::string, passes::SettingValue> settings = {};  // of the pass tree, those that differ
-    std::uint32_t frameIndex = 0;  // seeds hashed alpha
+    std::uint32_t frameIndex = 0;                               // seeds hashed alpha
 };
 
 struct AttachmentReport {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What is rendered: objects (geometry, material, transform), lights, environment, camera. Plain values.
-// Units: metres; scene-linear Rec.709 RGB; W/m2 for directional lights, W/sr for point lights, radiance (W/sr/m2) for the
-// environment.
+// Units: metres; scene-linear Rec.709 RGB; W/m2 for directional lights, W/sr for point lights, radiance (W/sr/m2) for
+// the environment.
 #pragma once
 
 #include <pelage/hair/geometry.hpp>
@@ -19,16 +19,16 @@ namespace pelage::hair {
 
 struct Camera {
     glm::vec3 eye = {0, 1.6F, 1.2F}, target = {0, 1.6F, 0}, up = {0, 1, 0};
-    float verticalFov = 0.45F;            // rad, 0.01..3
+    float verticalFov = 0.45F;                  // rad, 0.01..3
     float nearPlane = 0.02F, farPlane = 50.0F;  // m
 };
 
 struct Light {
     enum class Kind : std::uint8_t { Directional, Point } kind = Kind::Directional;
-    glm::vec3 position = {};                   // m; Point
-    glm::vec3 direction = {0, -1, 0};          // the way the light travels; Directional
-    glm::vec3 color = {1, 1, 1};               // scene-linear, times
-    float intensity = 3.14159265F;             // W/m2 (Directional) or W/sr (Point)
+    glm::vec3 position = {};           // m; Point
+    glm::vec3 direction = {0, -1, 0};  // the way the light travels; Directional
+    glm::vec3 color = {1, 1, 1};       // scene-linear, times
+    float intensity = 3.14159265F;     // W/m2 (Directional) or W/sr (Point)
     bool castsShadow = true;
 };
 

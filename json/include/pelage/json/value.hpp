@@ -30,7 +30,7 @@ struct Value {
     bool isInteger = false;  // written without fraction or exponent
     std::string string = {};
     std::vector<Value> elements = {};  // Array
-    std::vector<Member> members;  // Object, in the order of the text; no "= {}", for Member is incomplete here
+    std::vector<Member> members;       // Object, in the order of the text; no "= {}", for Member is incomplete here
 
     /// The member called `key`, or null (also when this is no object).
     const Value* find(std::string_view key) const;
@@ -53,7 +53,8 @@ struct Document {
     Value root = {};
 };
 
-/// Reads a text. `file` is the name used in diagnostics. Never throws; one error (the first) per text, codes J001..J009.
+/// Reads a text. `file` is the name used in diagnostics. Never throws; one error (the first) per text, codes
+/// J001..J009.
 Checked<Document> parse(std::string_view text, std::string_view file);
 
 /// Reads a file of at most 4 MiB (codes F001 cannot open, F002 too large, then as parse()).

@@ -38,12 +38,12 @@ struct Option {
     ValueType type = ValueType::Bool;     // Bool, Int or Enum
     std::vector<std::string> words = {};  // Enum; the value of the specialization constant is the index
     std::int64_t defaultValue = 0;
-    std::int64_t min = 0, max = 1;        // Int
+    std::int64_t min = 0, max = 1;  // Int
 };
 
 struct ShaderUse {
-    std::string name = {};      // "forward"
-    std::string drawList = {};  // joins the material to the raster passes with the same draw list
+    std::string name = {};                   // "forward"
+    std::string drawList = {};               // joins the material to the raster passes with the same draw list
     std::string vertex = {}, fragment = {};  // shader files; `fragment` may be empty (depth only)
     std::vector<std::string> options = {};   // those it reads (the file may say "*")
     RenderState state = {};
@@ -132,7 +132,7 @@ private:
     std::optional<Diagnostic> assign(std::string_view id, const std::function<Conversion(const Property&)>& from);
 
     std::shared_ptr<const MaterialType> type_;
-    std::vector<Value> values_;          // by property index
+    std::vector<Value> values_;  // by property index
     std::vector<bool> dirty_;
     CompiledMaterial compiled_;
     bool first_ = true;

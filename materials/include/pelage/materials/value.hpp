@@ -10,10 +10,17 @@
 namespace pelage::materials {
 
 enum class ValueType : std::uint8_t {
-    Bool, Int, Uint, Float, Float2, Float3, Float4,
+    Bool,
+    Int,
+    Uint,
+    Float,
+    Float2,
+    Float3,
+    Float4,
     Color,  // scene-linear RGB once inside the program; files state their space
     Enum,   // `integer` is the index among the property's words, `text` the word
-    Texture2D, TextureCube,  // `text` is a path or "builtin.white|grey|black|asset"
+    Texture2D,
+    TextureCube,  // `text` is a path or "builtin.white|grey|black|asset"
 };
 std::string_view name(ValueType type);
 /// "float3" and so on; false for an unknown word.

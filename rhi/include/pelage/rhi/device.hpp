@@ -17,7 +17,7 @@ struct SurfaceObject;
 
 struct Message {
     LogLevel level = LogLevel::Info;
-    std::string id = {};    // of the Vulkan validation layer ("VUID-…", "SYNC-HAZARD-…"), or ours ("adapter", …)
+    std::string id = {};  // of the Vulkan validation layer ("VUID-…", "SYNC-HAZARD-…"), or ours ("adapter", …)
     std::string text = {};
 };
 using MessageCallback = std::function<void(const Message&)>;
@@ -77,7 +77,7 @@ private:
 class Device : public Handle<detail::DeviceObject> {
 public:
     using Handle::Handle;
-    const AdapterInfo& info() const;   // features: those granted
+    const AdapterInfo& info() const;  // features: those granted
     const Limits& limits() const { return info().limits; }
     bool has(Feature feature) const { return contains(info().features, feature); }
     bool supports(TextureFormat format, TextureUsage usage, std::uint32_t sampleCount = 1) const;
@@ -131,8 +131,8 @@ public:
 
 struct AdapterOptions {
     PowerPreference powerPreference = PowerPreference::HighPerformance;
-    bool allowCPU = true;            // a CPU device is chosen when there is nothing better, and said so in a message
-    std::string nameContains = {};   // choose by name, for example "llvmpipe"
+    bool allowCPU = true;           // a CPU device is chosen when there is nothing better, and said so in a message
+    std::string nameContains = {};  // choose by name, for example "llvmpipe"
     Surface compatibleSurface = {};
 };
 

@@ -22,8 +22,8 @@ enum class ErrorCode : std::uint16_t {
 struct Error {
     ErrorKind kind = ErrorKind::Validation;
     ErrorCode code = {};
-    std::string message = {};                // one sentence: the labelled object, the value found, the value expected
-    std::vector<std::string> context = {};   // innermost first: "RenderPass \"forward\" > draw #3"
+    std::string message = {};               // one sentence: the labelled object, the value found, the value expected
+    std::vector<std::string> context = {};  // innermost first: "RenderPass \"forward\" > draw #3"
 };
 
 /// "R012: [Buffer "lights"] ... While validating CommandEncoder "frame" > RenderPass "forward" > draw #3."
