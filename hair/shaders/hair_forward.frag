@@ -30,6 +30,8 @@ layout(set = 2, binding = 0, std140) uniform Material {
 } material;
 #include "surface.glsl"
 
+// Nothing here discards: what the depth pass has hidden is not shaded.
+layout(early_fragment_tests) in;
 layout(location = 0) out vec4 o_color;  // scene-linear, premultiplied
 
 void main() {

@@ -12,7 +12,7 @@ namespace pelage::rhi {
 
 enum class ErrorKind : std::uint8_t { Validation, OutOfMemory, DeviceLost, Unsupported, Internal };
 
-/// Stable codes: one list, src/error_codes.def, which also makes docs/diagnostics.md. R000 is never used.
+/// Stable codes: one list, error_codes.def; docs/diagnostics.md lists them too. R000 is never used.
 enum class ErrorCode : std::uint16_t {
 #define PELAGE_RHI_ERROR(name, number, sentence) name = number,
 #include <pelage/rhi/error_codes.def>
