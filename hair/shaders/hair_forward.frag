@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The thesis' hair material: R, TT and TRT under punctual lights with shadows, one irradiance sample, ambient.
+// Hair lit fibre by fibre under punctual lights with shadows, one irradiance sample, ambient.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "options.glsl"
@@ -10,24 +10,7 @@
 #include "environment.glsl"
 #include "light.glsl"
 #include "material_common.glsl"
-#include "scattering/thesis.glsl"
-
-layout(set = 2, binding = 0, std140) uniform Material {
-    vec3 baseColor;
-    float strandIdAmp;
-    vec3 lobeSigma;
-    float azimuthScale;
-    vec3 lobeShift;
-    float azimuthNorm;
-    vec3 lobeWeight;
-    float fresnelF0;
-    float eta;
-    float envRoughness;
-    float envScale;
-    float ambientScatter;
-    float shadowDensity;
-    float shadowBias;
-} material;
+#include "fiber_material.glsl"
 #include "surface.glsl"
 
 // Nothing here discards: what the depth pass has hidden is not shaded.
@@ -36,8 +19,8 @@ layout(location = 0) out vec4 o_color;  // scene-linear, premultiplied
 
 void main() {
     Surface s = fetchSurface();
-    ThesisParameters p = ThesisParameters(s.color, material.lobeSigma, material.lobeShift, material.lobeWeight,
-                                          material.azimuthScale, material.azimuthNorm, material.fresnelF0, material.eta);
+    FiberMaterial m = fiberMaterial(s.color);
+    float h = scatteringModel == MODEL_CHIANG ? fragmentOffset(gl_FragCoord.xy, v_strand.x) : 0.0;
     vec3 radiance = vec3(0.0);
     vec3 ambient = frame.ambient.rgb;
     int count = int(frame.eye.w);
@@ -45,14 +28,27 @@ void main() {
         Incident incident = incidentLight(frame.lights[i], s.world);
         float lit = shadowTransmittance(frame.lights[i], s.world, material.shadowDensity, material.shadowBias);
         vec3 arriving = incident.irradiance * lit;
-        radiance += scatterThesis(s.tangent, incident.direction, s.wo, p) * arriving;
+        FiberAngles a = fiberAngles(s.tangent, incident.direction, s.wo);
+        a.h = h;
+        a.cosGamma = sqrt(max(1.0 - h * h, 0.0));
+        radiance += scatter(a, m) * arriving;
         ambient += arriving * isotropic;
     }
     if (envOn) {
-        // Wider lobes stand for the size of what lights the hair (Karis 2016): R, TT, TRT keep their ratios.
-        p.sigma = max(material.envRoughness * vec3(1.0, 0.5, 2.0), vec3(0.01));
-        radiance += scatterThesisEnvironment(s.tangent, s.normal, s.wo, p) * environmentIrradiance(s.normal) *
-                    material.envScale;
+        // One sample in the direction of the normal, with wider lobes for the size of what it stands for (Karis 2016).
+        // No TT, which would need what lies behind the hair (thesis section 4.4).
+        m.inverseVariance = material.envInverseVariance;
+        m.norm = material.envNorm;
+        m.deviation = material.envDeviation;
+        FiberAngles a = fiberAngles(s.tangent, s.normal, s.wo);
+        a.h = h;
+        a.cosGamma = sqrt(max(1.0 - h * h, 0.0));
+        FiberLobes l = scatterFiber(scatteringModel, asPublished, a, m, fetchMoments(a));
+        vec3 sum = vec3(0.0);
+        if (lobeR) sum += material.gainR * l.R;
+        if (lobeTRT) sum += material.gainTRT * l.TRT;
+        if (lobeRES) sum += material.gainRES * l.RES;
+        radiance += sum * environmentIrradiance(s.normal) * material.envScale;
     }
     if (ambientOn) radiance += s.color * ambient * material.ambientScatter;
     o_color = finish(radiance, s);

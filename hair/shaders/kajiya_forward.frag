@@ -27,15 +27,20 @@ layout(set = 2, binding = 0, std140) uniform Material {
 } material;
 #include "surface.glsl"
 
+// The model with its exponent and its shares under the artist's hand: both parts divided by their integrals.
+vec3 kajiyaKay(Surface s, vec3 wi) {
+    FiberAngles a = fiberAngles(s.tangent, wi, s.wo);
+    vec3 diffuse = s.color * (material.diffuseWeight * a.cosI / (pi * pi));
+    return diffuse + material.specularColor * (material.specularWeight * material.specularNorm *
+                                               kajiyaCone(a, a.sinO, a.cosO, material.specularExponent));
+}
+
 // Nothing here discards: what the depth pass has hidden is not shaded.
 layout(early_fragment_tests) in;
 layout(location = 0) out vec4 o_color;  // scene-linear, premultiplied
 
 void main() {
     Surface s = fetchSurface();
-    KajiyaKayParameters p = KajiyaKayParameters(s.color * material.diffuseWeight,
-                                                material.specularColor * material.specularWeight,
-                                                material.specularExponent, material.specularNorm);
     vec3 radiance = vec3(0.0);
     vec3 ambient = frame.ambient.rgb;
     int count = int(frame.eye.w);
@@ -43,11 +48,11 @@ void main() {
         Incident incident = incidentLight(frame.lights[i], s.world);
         float lit = shadowTransmittance(frame.lights[i], s.world, material.shadowDensity, material.shadowBias);
         vec3 arriving = incident.irradiance * lit;
-        radiance += scatterKajiyaKay(s.tangent, incident.direction, s.wo, p) * arriving;
+        radiance += kajiyaKay(s, incident.direction) * arriving;
         ambient += arriving * isotropic;
     }
     if (envOn) {
-        radiance += scatterKajiyaKay(s.tangent, s.normal, s.wo, p) * environmentIrradiance(s.normal) *
+        radiance += kajiyaKay(s, s.normal) * environmentIrradiance(s.normal) *
                     material.envScale;
     }
     if (ambientOn) radiance += s.color * ambient * material.ambientScatter;

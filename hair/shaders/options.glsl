@@ -26,6 +26,10 @@ layout(constant_id = 6) const bool useStrandId = false;
 layout(constant_id = 7) const bool lobeR = true;
 layout(constant_id = 8) const bool lobeTT = true;
 layout(constant_id = 9) const bool lobeTRT = true;
+layout(constant_id = 11) const bool lobeRES = true;
+layout(constant_id = 12) const int scatteringModel = 8;  // numbers of scattering/models.glsl
+layout(constant_id = 13) const bool asPublished = false;
+layout(constant_id = 14) const bool chiangColor = false;
 #define ATTENUATION_KARIS_H 0
 #define ATTENUATION_TAFURI_H0 1
 layout(constant_id = 10) const int attenuationModel = ATTENUATION_TAFURI_H0;

@@ -16,14 +16,38 @@ namespace pelage::app {
 
 namespace {
 
-constexpr const char* yardstick = "kajiya_kay";
-
-/// The thesis' model and the two it is compared with, in the same colour: shipped materials.
+/// A shading model: a shipped material in brown, and where that is `hair`, its scattering.model.
 struct Contender {
     const char* name;
     const char* material;
+    const char* model;
 };
-constexpr Contender contenders[] = {{"thesis", "brown"}, {yardstick, "kajiya_brown"}, {"standard_pbr", "pbr_brown"}};
+constexpr Contender known[] = {{"moment_lut", "brown", "momentLut"},
+                               {"segment_cdf", "brown", "segmentCdf"},
+                               {"chiang", "brown", "chiang"},
+                               {"pxr", "brown", "pxr"},
+                               {"karis", "brown", "karis"},
+                               {"thesis", "brown", "thesis"},
+                               {"marschner", "brown", "marschner"},
+                               {"gerard", "brown", "gerard"},
+                               {"scheuermann", "brown", "scheuermann"},
+                               {"kajiya_kay", "kajiya_brown", ""},
+                               {"standard_pbr", "pbr_brown", ""}};
+
+Outcome<std::vector<Contender>> choose(const std::vector<std::string>& names) {
+    std::vector<Contender> chosen;
+    for (const std::string& name : names) {
+        const auto found =
+            std::find_if(std::begin(known), std::end(known), [&](const auto& c) { return name == c.name; });
+        if (found == std::end(known)) {
+            std::string all;
+            for (const Contender& contender : known) all += (all.empty() ? "" : ", ") + std::string(contender.name);
+            return tl::unexpected(Failure("A063: no shading model \"" + name + "\" to bench; there are " + all));
+        }
+        chosen.push_back(*found);
+    }
+    return chosen;
+}
 
 double median(std::vector<double> values) {
     if (values.empty()) return 0;
@@ -37,6 +61,18 @@ struct Samples {
     hair::Scene scene = {};
     std::vector<hair::FrameReport> frames = {};
 };
+
+/// The material of a contender, on all hair of the scene where one is given.
+Outcome<materials::Material> materialOf(const Contender& contender, hair::Library& library) {
+    auto parsed = library.material(contender.material);
+    if (!parsed) return tl::unexpected(Failure(parsed.error()));
+    if (*contender.model != '\0') {
+        if (auto wrong = parsed->material.setFromText("scattering.model", contender.model)) {
+            return tl::unexpected(Failure(*wrong));
+        }
+    }
+    return std::move(parsed->material);
+}
 
 ModelResult summarise(const Contender& contender, const Samples& samples) {
     ModelResult result{.name = contender.name, .material = contender.material};
@@ -71,6 +107,8 @@ Outcome<void> measure(std::vector<Samples>& all, hair::Renderer& renderer, const
 
 int bench(const BenchOptions& options) {
     hair::Library library(dataDirectory());
+    auto contenders = choose(options.models);
+    if (!contenders) return report(contenders.error());
     auto stage = makeStage(options.stage, library);
     if (!stage) return report(stage.error());
 
@@ -78,12 +116,14 @@ int bench(const BenchOptions& options) {
                        .width = stage->file.frame.width,
                        .height = stage->file.frame.height,
                        .repeats = options.repeat,
-                       .yardstick = yardstick};
+                       .yardstick = contenders->front().name};
     std::vector<Samples> all;
-    for (const Contender& contender : contenders) {
+    for (const Contender& contender : *contenders) {
         Samples samples{.scene = stage->file.scene};
-        if (auto applied = applyMaterial(samples.scene, contender.material, library); !applied) {
-            return report(applied.error());
+        auto material = materialOf(contender, library);
+        if (!material) return report(material.error());
+        for (hair::Object& object : samples.scene.objects) {
+            if (object.geometry->isHair) object.material = *material;
         }
         all.push_back(std::move(samples));
     }
@@ -97,11 +137,11 @@ int bench(const BenchOptions& options) {
     if (auto measured = measure(all, *renderer, stage->file.frame, options.repeat); !measured) {
         return report(measured.error());
     }
-    for (std::size_t i = 0; i < all.size(); ++i) result.models.push_back(summarise(contenders[i], all[i]));
-    for (const Contender& contender : contenders) {
-        auto parsed = library.material(contender.material);
-        if (!parsed) return report(Failure(parsed.error()));
-        if (auto counted = countOptions(contender.name, parsed->material, result.instructions); !counted) {
+    for (std::size_t i = 0; i < all.size(); ++i) result.models.push_back(summarise((*contenders)[i], all[i]));
+    for (const Contender& contender : *contenders) {
+        auto material = materialOf(contender, library);
+        if (!material) return report(material.error());
+        if (auto counted = countOptions(contender.name, *material, result.instructions); !counted) {
             return report(counted.error());
         }
     }

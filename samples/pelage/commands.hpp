@@ -36,10 +36,27 @@ int gallery(const GalleryOptions& options);
 struct BenchOptions {
     StageOptions stage = {};
     DeviceOptions device = {};
+    std::vector<std::string> models = {"karis", "moment_lut", "segment_cdf", "thesis", "kajiya_kay", "standard_pbr"};
     std::uint32_t repeat = 9;
     std::string json = {};
 };
 int bench(const BenchOptions& options);
+
+struct ScatterOptions {
+    bool exact = false;  // the truth of pelage::reference; else `model`
+    std::string model = {};
+    bool published = false;            // with the errors of the model's source
+    std::string precision = "double";  // or float, gpu
+    std::string input = "-", output = "-";
+    DeviceOptions device = {};  // of gpu
+    // Where `plot` names a picture, that is made instead of rows, of one fibre and view.
+    std::string plot = {};
+    std::string models = "karis,thesis,moment_lut";
+    double eta = 1.55, betaM = 0.3, betaN = 0.3, sigmaA = 0.2;
+    double alpha = -2, thetaO = 0;  // degrees
+};
+/// 1 when some rows were bad: they are named, and the others evaluated.
+int scatter(const ScatterOptions& options);
 
 int info(const std::vector<std::string>& files);
 int check(const std::vector<std::string>& files);

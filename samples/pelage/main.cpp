@@ -71,6 +71,9 @@ void addBench(CLI::App& app, BenchOptions& options, int& result) {
     CLI::App* command = app.add_subcommand("bench", "Compare the shading models: time as ratios, and work");
     options.stage.input = "wavy_brown";
     command->add_option("input", options.stage.input, inputHelp)->capture_default_str();
+    command->add_option("--models", options.models, "Shading models to compare; the first is 1.00")
+        ->delimiter(',')
+        ->capture_default_str();
     command->add_option("--repeat", options.repeat, "Frames of each model")
         ->capture_default_str()
         ->check(CLI::Range(1, 10000));
@@ -78,6 +81,33 @@ void addBench(CLI::App& app, BenchOptions& options, int& result) {
     addStage(*command, options.stage);
     addDevice(*command, options.device);
     command->callback([&] { result = bench(options); });
+}
+
+void addScatter(CLI::App& app, ScatterOptions& options, int& result) {
+    CLI::App* command = app.add_subcommand("scatter", "Evaluate one fibre for rows of angles, exactly or by a model");
+    command->add_option("input", options.input, "CSV of rows, see docs/scatter-csv.md; - is standard input")
+        ->capture_default_str();
+    command->add_option("-o,--output", options.output, "CSV of rows and results")->capture_default_str();
+    command->add_flag("--exact", options.exact, "The ground truth");
+    command->add_option("--model", options.model, "A scattering model, for example moment_lut")->type_name("ID");
+    command->add_flag("--published", options.published, "The model with the errors of its source");
+    command->add_option("--precision", options.precision, "Arithmetic of the model: gpu, float or double")
+        ->capture_default_str()
+        ->check(CLI::IsMember({"gpu", "float", "double"}));
+    addDevice(*command, options.device);
+    command->add_option("--plot", options.plot, "Draw the far field of one fibre instead: .svg or .png")
+        ->type_name("FILE");
+    command->add_option("--models", options.models, "Models drawn, separated by commas")->capture_default_str();
+    const auto number = [&](const char* name, double& value, double low, double high, const char* help) {
+        command->add_option(name, value, help)->capture_default_str()->check(CLI::Range(low, high));
+    };
+    number("--eta", options.eta, 1.0001, 3, "Plot: index of refraction");
+    number("--beta-m", options.betaM, 0.01, 1, "Plot: longitudinal roughness");
+    number("--beta-n", options.betaN, 0.01, 1, "Plot: azimuthal roughness");
+    number("--alpha", options.alpha, -28.6, 28.6, "Plot: tilt of the scales, degrees");
+    number("--sigma-a", options.sigmaA, 0, 1e4, "Plot: absorption per radius");
+    number("--theta-o", options.thetaO, -90, 90, "Plot: inclination of the view, degrees");
+    command->callback([&] { result = scatter(options); });
 }
 
 void addFiles(CLI::App& app, const char* name, const char* help, std::vector<std::string>& files, int& result,
@@ -96,11 +126,13 @@ int run(int argc, char** argv) {
     ViewOptions viewOptions;
     GalleryOptions galleryOptions;
     BenchOptions benchOptions;
+    ScatterOptions scatterOptions;
     std::vector<std::string> files;
     addRender(app, renderOptions, result);
     addView(app, viewOptions, result);
     addGallery(app, galleryOptions, result);
     addBench(app, benchOptions, result);
+    addScatter(app, scatterOptions, result);
     addFiles(app, "info", "Say what is in hair files", files, result, info);
     addFiles(app, "check", "Find faults in pass trees, material types, materials and scenes", files, result, check);
     try {

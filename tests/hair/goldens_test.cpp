@@ -44,6 +44,7 @@ std::vector<std::pair<std::string, std::string>> only(const std::string& lobe) {
     return {{"scattering.enableR", lobe == "R" ? "true" : "false"},
             {"scattering.enableTT", lobe == "TT" ? "true" : "false"},
             {"scattering.enableTRT", lobe == "TRT" ? "true" : "false"},
+            {"scattering.enableResidual", "false"},
             {"environment.enable", "false"},
             {"globalScattering.mode", "off"}};
 }

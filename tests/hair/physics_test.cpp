@@ -39,6 +39,7 @@ std::shared_ptr<const hair::Geometry> fence() {
 const std::vector<std::pair<std::string, std::string>> onlyR = {
     {"blending.mode", "opaque"},       {"scattering.enableTT", "false"},
     {"scattering.enableTRT", "false"}, {"scattering.longitudinalRoughness", "0.05"},
+    {"scattering.enableResidual", "false"},
     {"scattering.cuticleTilt", "-8"},  {"shadowing.mode", "off"},
     {"environment.enable", "false"},   {"globalScattering.mode", "off"}};
 
@@ -93,19 +94,20 @@ TEST_F(Physics, RadianceIsLinearInLight) {
     EXPECT_NEAR(meanLuminance(render(renderer(), scene)) / once, 2.0, 0.01);
 }
 
-// Lobes are independent: R + TT + TRT each alone add up to the three together.
+// Lobes are independent: R, TT, TRT and the residual each alone add up to the four together.
 TEST_F(Physics, LobesAddUp) {
     double sum = 0, all = 0;
-    for (const char* lobe : {"R", "TT", "TRT", "all"}) {
+    for (const char* lobe : {"R", "TT", "TRT", "Residual", "all"}) {
         std::vector<std::pair<std::string, std::string>> values = {{"environment.enable", "false"},
                                                                    {"globalScattering.mode", "off"}};
         if (std::string(lobe) != "all") {
             values.push_back({"scattering.enableR", std::string(lobe) == "R" ? "true" : "false"});
             values.push_back({"scattering.enableTT", std::string(lobe) == "TT" ? "true" : "false"});
             values.push_back({"scattering.enableTRT", std::string(lobe) == "TRT" ? "true" : "false"});
+            values.push_back({"scattering.enableResidual", std::string(lobe) == "Residual" ? "true" : "false"});
         }
         hair::Scene scene = portrait(cards(), material("brown", values));
-        scene.objects.erase(scene.objects.begin());  // skin would be counted four times
+        scene.objects.erase(scene.objects.begin());  // skin would be counted five times
         (std::string(lobe) == "all" ? all : sum) += meanLuminance(render(renderer(), scene));
     }
     EXPECT_NEAR(sum / all, 1.0, 0.005);

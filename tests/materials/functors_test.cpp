@@ -28,29 +28,7 @@ double scalar(const FunctorOutputs& out, std::size_t port) {
     return static_cast<double>(out.values().at(port).number[0]);
 }
 
-// The integral of the TRT azimuth over phi, by the trapezoid rule: exact for smooth periodic functions.
-double azimuthalEnergy(double scale, double norm) {
-    constexpr int steps = 4096;
-    double sum = 0;
-    for (int i = 0; i < steps; ++i)
-        sum += norm * std::exp(scale * (17.0 * std::cos(2.0 * std::numbers::pi * i / steps) - 16.78));
-    return sum * 2.0 * std::numbers::pi / steps;
-}
-
 }  // namespace
-
-TEST(Functors, AzimuthKeepsItsEnergyAtEveryRoughness) {
-    const double wanted = azimuthalEnergy(1.0, 1.0);
-    for (const float betaN : {0.0F, 0.1F, 0.2F, 1.0F / 3.0F, 0.5F, 0.6F, 0.8F, 0.9F, 0.95F, 1.0F}) {
-        const FunctorOutputs out = run("AzimuthalTrtScale", {Value::scalar(betaN)});
-        const double scale = scalar(out, 0), norm = scalar(out, 1);
-        EXPECT_NEAR(scale, std::min(1.5, std::max(0.05, 1.5 * (1.0 - static_cast<double>(betaN)))), 1e-6);
-        EXPECT_NEAR(azimuthalEnergy(scale, norm) / wanted, 1.0, 2e-6) << "betaN " << betaN;
-    }
-    // The printed (4.27), norm = scale, loses it: what this functor is for.
-    EXPECT_LT(azimuthalEnergy(0.3, 0.3) / wanted, 0.6);
-    EXPECT_LT(azimuthalEnergy(0.05, 0.05) / wanted, 0.3);
-}
 
 TEST(Functors, KajiyaHighlightReflectsItsWeight) {
     for (const float exponent : {1.0F, 10.0F, 80.0F, 1000.0F}) {
@@ -77,30 +55,66 @@ TEST(Functors, KajiyaHighlightReflectsItsWeight) {
     EXPECT_EQ(scalar(run("KajiyaSpecular", {Value::boolean(false), Value::scalar(9), Value::scalar(1)}), 3), 0.0);
 }
 
-TEST(Functors, LobesHaveMarschnersWidthsAndShifts) {
-    const FunctorOutputs out = run("MarschnerLobeShape", {Value::scalar(0.2F), Value::scalar(-7.0F)});
-    const auto& sigma = out.values().at(0).number;
-    const auto& shift = out.values().at(1).number;
-    const float alpha = -7.0F * std::numbers::pi_v<float> / 180.0F;
-    EXPECT_FLOAT_EQ(sigma[0], 0.2F);
-    EXPECT_FLOAT_EQ(sigma[1], 0.1F);
-    EXPECT_FLOAT_EQ(sigma[2], 0.4F);
-    EXPECT_FLOAT_EQ(shift[0], alpha);
-    EXPECT_FLOAT_EQ(shift[1], -alpha / 2);
-    EXPECT_FLOAT_EQ(shift[2], -1.5F * alpha);
-    EXPECT_LT(shift[0], 0) << "R toward the root";
-    const FunctorOutputs thin = run("MarschnerLobeShape", {Value::scalar(0.001F), Value::scalar(0.0F)});
-    for (std::size_t i = 0; i < 3; ++i) EXPECT_FLOAT_EQ(thin.values().at(0).number[i], 0.01F);
+namespace {
+// Inputs of FiberShape: model, index, roughnesses, tilt, widths, shifts, glint, boost for the environment.
+std::vector<Value> shape(std::int64_t model, float betaM, float betaN, float tilt, float boost) {
+    return {{ValueType::Enum, {}, model, {}},
+            Value::scalar(1.55F),
+            Value::scalar(betaM),
+            Value::scalar(betaN),
+            Value::scalar(tilt),
+            Value::float3(1, 1, 1),
+            Value::float3(0, 0, 0),
+            Value::scalar(0),
+            Value::scalar(5),
+            Value::scalar(0),
+            Value::scalar(boost)};
+}
+}  // namespace
+
+// Chiang 2016 (7): v0 = (0.726 b + 0.812 b^2 + 3.7 b^20)^2, v0 / 4, 4 v0; tilts -2, 1, 4 alpha on theta_o.
+TEST(Functors, LobesHaveChiangsWidthsAndTilts) {
+    const FunctorOutputs out = run("FiberShape", shape(8, 0.3F, 0.3F, -3.0F, 0.2F));
+    const auto& inverse = out.values().at(2).number;
+    const float root = 0.726F * 0.3F + 0.812F * 0.09F;
+    EXPECT_NEAR(1 / inverse[0], root * root, 1e-6F);
+    EXPECT_NEAR(inverse[1] / inverse[0], 4, 1e-5F);
+    EXPECT_NEAR(inverse[2] / inverse[0], 0.25F, 1e-6F);
+    EXPECT_NEAR(out.values().at(5).number[0], std::sin(6 * std::numbers::pi_v<float> / 180), 1e-6F);
+    EXPECT_NEAR(out.values().at(5).number[2], -std::sin(12 * std::numbers::pi_v<float> / 180), 1e-6F);
+    EXPECT_LT(out.values().at(8).number[0], inverse[0]) << "wider for the environment";
+    EXPECT_EQ(out.values().at(11).text, "moments:1.55,0.3");
+    EXPECT_EQ(run("FiberShape", shape(3, 0.3F, 0.3F, 0, 0)).values().at(11).text, "moments:none") << "karis";
+}
+
+// exp(-4 sigma) = C in the shader, or here: pigments by their constants, and Chiang's fit of ln C.
+TEST(Functors, AbsorptionComesFromOneSource) {
+    const auto color = [](std::int64_t mode) {
+        return std::vector<Value>{{ValueType::Enum, {}, mode, {}}, Value::color(0.5F, 0.4F, 0.3F), Value::texture("a.png"),
+                                  Value::boolean(true),           Value::scalar(2),               Value::scalar(1),
+                                  Value::float3(0.1F, 0.2F, 0.3F), Value::scalar(0.3F)};
+    };
+    const auto path = run("FiberColor", color(0)), mass = run("FiberColor", color(1));
+    EXPECT_EQ(path.values().at(3).number[0], 0) << "all of it is made in the shader";
+    EXPECT_EQ(path.values().at(5).integer, 0);
+    EXPECT_EQ(mass.values().at(5).integer, 1);
+    EXPECT_NEAR(scalar(mass, 4), 1 / 5.88842, 1e-4);
+    EXPECT_EQ(scalar(mass, 0), 0.5F);
+    const auto melanin = run("FiberColor", color(2)), sigma = run("FiberColor", color(3));
+    EXPECT_NEAR(melanin.values().at(3).number[2], 2 * 1.37F + 1.05F, 1e-5F);
+    EXPECT_EQ(scalar(melanin, 0), 1) << "white: its map alone is left of the base colour";
+    EXPECT_EQ(sigma.values().at(3).number[1], 0.2F);
 }
 
 TEST(Functors, WeightZeroTurnsTheLobeOff) {
     const auto on = [](bool value) { return Value::boolean(value); };
-    const FunctorOutputs out =
-        run("LobeWeights", {on(true), Value::scalar(0), on(false), Value::scalar(1), on(true), Value::scalar(0.5F)});
-    EXPECT_EQ(out.values().at(1).integer, 0);
-    EXPECT_EQ(out.values().at(2).integer, 0);
-    EXPECT_EQ(out.values().at(3).integer, 1);
-    EXPECT_EQ(out.values().at(0).number, (std::array<float, 4>{0, 0, 0.5F, 0}));
+    const Value white = Value::color(1, 1, 1);
+    const FunctorOutputs out = run(
+        "LobeWeights", {on(true), Value::scalar(0), white, on(false), Value::scalar(1), white, on(true), Value::scalar(0.5F),
+                        Value::color(1, 0.5F, 0), on(true), Value::scalar(1), Value::color(0, 0, 0)});
+    for (const std::size_t off : {4U, 5U, 7U}) EXPECT_EQ(out.values().at(off).integer, 0);
+    EXPECT_EQ(out.values().at(6).integer, 1);
+    EXPECT_EQ(out.values().at(2).number, (std::array<float, 4>{0.5F, 0.25F, 0, 1}));
 }
 
 TEST(Functors, FresnelShadowEnvironmentAmbientAndStrands) {
@@ -114,9 +128,6 @@ TEST(Functors, FresnelShadowEnvironmentAmbientAndStrands) {
     EXPECT_EQ(shadow.values().at(2).integer, 2);
     EXPECT_EQ(scalar(run("ShadowFalloff", {hard, Value::scalar(0.03F), Value::int32(1)}), 1), 0.0);
 
-    const std::vector<Value> environment{Value::boolean(true), Value::scalar(2), Value::scalar(0.9F),
-                                         Value::scalar(0.2F)};
-    EXPECT_EQ(scalar(run("EnvironmentSample", environment), 2), 1.0);
     EXPECT_EQ(run("EnvironmentScale", {Value::boolean(true), Value::scalar(0)}).values().at(0).integer, 0);
     EXPECT_EQ(run("EnvironmentScale", {Value::boolean(false), Value::scalar(1)}).values().at(0).integer, 0);
     EXPECT_EQ(scalar(run("EnvironmentScale", {Value::boolean(true), Value::scalar(2)}), 1), 2.0);
@@ -164,5 +175,5 @@ TEST(Registry, NamesAreTakenOnce) {
     EXPECT_TRUE(registry.add(type));
     EXPECT_FALSE(registry.add(type));
     EXPECT_EQ(registry.find("Nobody"), nullptr);
-    EXPECT_EQ(hair::functorRegistry().names().size(), 12U);
+    EXPECT_EQ(hair::functorRegistry().names().size(), 11U);
 }

@@ -10,7 +10,7 @@ namespace {
 
 struct Row {
     std::string_view values, line;
-    int typeVersion = 2;
+    int typeVersion = 3;
 };
 
 std::string materialText(std::string_view values, int version) {
@@ -64,7 +64,7 @@ TEST(MaterialFaults, EveryCodePointsAtTheMistake) {
          "I:7:1: error V009: 'scattering.longitudinalRoughness' is given twice, once by an older name; hint: first at "
          "6:1"},
         {"",
-         "I:4:16: error V001: material was saved with type version 5, this type is version 2; hint: update the "
+         "I:4:16: error V001: material was saved with type version 5, this type is version 3; hint: update the "
          "library, or save again",
          5},
         {R"("scattering": 1)",
@@ -105,10 +105,11 @@ TEST(MaterialFaults, OlderVersionsKeepWhatTheyReliedOn) {
     ASSERT_TRUE(old) << old.error().text();
     EXPECT_EQ(old->material.get("scattering.longitudinalRoughness")->number[0], 0.3F);
     EXPECT_EQ(old->material.get("shadowing.mode")->text, "pcf") << "setValue of version 2";
+    EXPECT_EQ(old->material.get("scattering.model")->text, "thesis") << "setValue of version 3";
     const auto stated = Material::parse(materialText(R"("shadowing.mode": "hard")", 1), "I", shippedSource());
     ASSERT_TRUE(stated);
     EXPECT_EQ(stated->material.get("shadowing.mode")->text, "hard");
-    const auto current = Material::parse(materialText("", 2), "I", shippedSource());
+    const auto current = Material::parse(materialText("", 3), "I", shippedSource());
     ASSERT_TRUE(current);
     EXPECT_EQ(current->material.get("shadowing.mode")->text, "exponential");
 }

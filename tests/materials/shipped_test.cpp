@@ -53,10 +53,11 @@ TEST(Shipped, InputsAndOptionsAreTheShadersNames) {
     const std::vector<std::string> options{"alphaMode", "shadowMode",  "pcfRadius",  "envOn",
                                            "ambientOn", "useColorMap", "useStrandId"};
     const std::vector<std::vector<std::string>> ownInputs{
-        {"lobeSigma", "lobeShift", "lobeWeight", "azimuthScale", "azimuthNorm", "fresnelF0", "eta", "envRoughness"},
+        {"sigmaA", "colorFit", "gainR", "gainTT", "gainTRT", "gainRES", "fiber0", "fiber1", "inverseVariance", "norm",
+         "deviation", "sinTilt", "cosTilt", "glint", "envInverseVariance", "envNorm", "envDeviation", "momentTable"},
         {"specularColor", "specularExponent", "specularNorm", "specularWeight", "diffuseWeight", "specularScale"},
         {"metallic", "roughness", "fresnelF0", "specularScale"}};
-    const std::vector<std::vector<std::string>> ownOptions{{"lobeR", "lobeTT", "lobeTRT", "attenuationModel"}, {}, {}};
+    const std::vector<std::vector<std::string>> ownOptions{{"lobeR", "lobeTT", "lobeTRT", "lobeRES", "attenuationModel", "scatteringModel", "asPublished", "chiangColor"}, {}, {}};
     const std::vector<std::string> fragments{"hair_forward.frag", "kajiya_forward.frag", "pbr_forward.frag"};
     for (std::size_t i = 0; i < typeNames.size(); ++i) {
         const auto type = shipped(typeNames[i]);
@@ -84,7 +85,7 @@ TEST(Shipped, InputsAndOptionsAreTheShadersNames) {
         EXPECT_EQ(shader(compiled, "blend").use.fragment, fragments[i]);
         EXPECT_EQ(shader(compiled, "forward").constants.size(), compiled.options.size());
         EXPECT_EQ(shader(compiled, "depth").constants.size(), 1U);
-        EXPECT_EQ(compiled.textures.size(), 3U);
+        EXPECT_EQ(compiled.textures.size(), i == 0 ? 4U : 3U);
     }
 }
 

@@ -1,62 +1,53 @@
 // SPDX-License-Identifier: MIT
-// The thesis' far-field R, TT, TRT model (chapter 4, after Karis 2016 and Tafuri 2019), its printed errors corrected:
-//   S = sum over p of 1/2 g(sigma_p; theta_h - alpha_p) N_p(phi) cos(theta_i) / cos2(theta_d)
-// so that the integral of S over the sphere is about the attenuation A_p. Corrections to the print:
-//   the factor 1/2 (g is a unit Gaussian in theta_h, whose measure is half that of theta_i + theta_o: (4.2), (4.3));
-//   theta by asin of the tangent component, not arccos (table 4.1);
-//   Fresnel of R at sqrt(1/2 + wi.wo / 2), not wi.wo / 2 (4.11);
-//   paths divided by cos(theta_t), and h by eta', not cos(theta_d) and eta (4.17);
-//   the azimuthal lobe of TRT keeps its energy when beta_N widens it: azimuthNorm (4.27).
-// L_o = S(wi, wo) E_perp: the projected cosine is inside S.
-#ifndef PELAGE_SCATTERING_THESIS_GLSL
-#define PELAGE_SCATTERING_THESIS_GLSL
-#include "angles.glsl"
+// "A Framework for Real-Time Physically-Based Hair Rendering", chapter 4: Karis' fits of the azimuth, and Tafuri's
+// h = 0 for TT and azimuthal roughness for TRT, on Marschner's longitudinal Gaussians (marschner.glsl).
+// C = exp(-4 sigma_a); Schlick's Fresnel; s_r = 1.5 (1 - beta_N) clamped to 0..1.
+//   published: M over theta_h without 1/2 (4.3); R's Fresnel at cos(wi.wo / 2) (4.12), an angle's cosine of a cosine;
+//              paths over cos(theta_d) (4.17), and TRT's at 0.8, which is h / eta for h / eta' (4.24); TRT's lobe
+//              s_r exp(s_r (17 cos(phi) - 16.78)) (4.27), whose light shrinks with sqrt(s_r) and is gone at
+//              beta_N = 1.
+//   corrected: 1/2 M; Fresnel at half the angle, sqrt(1/2 + wi.wo / 2); paths over cos(theta_t); h / eta'; TRT keeps
+//              the light that it has at s_r = 1: exp(-16.78) I0(17) over exp(-16.78 s_r) I0(17 s_r).
+#ifndef PELAGE_THESIS_GLSL
+#define PELAGE_THESIS_GLSL
+#include "marschner.glsl"
 
-struct ThesisParameters {
-    vec3 color;          // C, 0..1: what two radii of fibre transmit, squared
-    vec3 sigma, shift;   // longitudinal width and shift of R, TT, TRT in theta_h, rad
-    vec3 weight;         // artist's factor of each
-    float azimuthScale;  // s_r of (4.27)
-    float azimuthNorm;
-    float fresnelF0, eta;
-};
-
-vec3 scatterThesis(vec3 u, vec3 wi, vec3 wo, ThesisParameters p) {
-    FiberAngles a = fiberAngles(u, wi, wo);
-    float etaPerp2 = p.eta * p.eta - a.sinD * a.sinD;  // (eta' cos theta_d)^2
-    float inverseEta = a.cosD * inversesqrt(max(etaPerp2, 1e-4));  // 1 / eta', Bravais
-    float cosT = sqrt(max(1.0 - a.sinD * a.sinD / (p.eta * p.eta), 1e-4));
-    vec3 logColor = log2(max(p.color, vec3(1e-4)));
-
-    vec3 s = vec3(0.0);
-    if (lobeR) {
-        float f = fresnelSchlick(p.fresnelF0, sqrt(max(0.5 + 0.5 * dot(wi, wo), 0.0)));
-        s += p.weight.x * gaussian(p.sigma.x, a.thetaH - p.shift.x) * f * 0.25 * a.cosHalfPhi;  // (4.10), (4.12)
-    }
-    if (lobeTT) {
-        float h = 0.0;
-        if (attenuationModel == ATTENUATION_KARIS_H) {
-            h = min((1.0 + inverseEta * (0.6 - 0.8 * a.cosPhi)) * a.cosHalfPhi, 1.0);  // (4.16)
-        }
-        float f = fresnelSchlick(p.fresnelF0, a.cosD * sqrt(1.0 - h * h));  // (4.8)
-        float cosGammaT = sqrt(max(1.0 - h * h * inverseEta * inverseEta, 0.0));
-        vec3 transmitted = exp2(logColor * (0.5 * cosGammaT / cosT));  // (4.18)
-        float d = exp(-3.65 * a.cosPhi - 3.98);                         // (4.21)
-        s += p.weight.y * gaussian(p.sigma.y, a.thetaH - p.shift.y) * (1.0 - f) * (1.0 - f) * d * transmitted;
-    }
-    if (lobeTRT) {
-        float f = fresnelSchlick(p.fresnelF0, 0.5 * a.cosD);  // (4.25): h = sqrt(3) / 2
-        vec3 transmitted = exp2(logColor * (sqrt(max(1.0 - 0.75 * inverseEta * inverseEta, 0.0)) / cosT));  // (4.24)
-        float d = p.azimuthNorm * exp(p.azimuthScale * (17.0 * a.cosPhi - 16.78));                         // (4.27)
-        s += p.weight.z * gaussian(p.sigma.z, a.thetaH - p.shift.z) * (1.0 - f) * (1.0 - f) * f * d * transmitted;
-    }
-    return s * (0.5 * a.cosI / (a.cosD * a.cosD));
+// cos(x) for |x| <= 1/2.
+real thesisCosine(real x) {
+    real q = -x * x;
+    return 1.0 + q / 2.0 * (1.0 + q / 12.0 * (1.0 + q / 30.0 * (1.0 + q / 56.0 * (1.0 + q / 90.0))));
 }
 
-// Under an irradiance map there is one sample, in the direction of the normal: no TT, which would need what lies behind
-// the hair (thesis section 4.4).
-vec3 scatterThesisEnvironment(vec3 u, vec3 n, vec3 wo, ThesisParameters p) {
-    p.weight.y = 0.0;
-    return scatterThesis(u, n, wo, p);
+FiberLobes scatterThesis(FiberAngles a, FiberMaterial m, FiberTable, bool published) {
+    FiberSection section = fiberSection(m, marschnerCosD(a));
+    real cosD = section.cosine;
+    real f0 = square((m.eta - 1.0) / (m.eta + 1.0));
+    real cone = marschnerCone(a) * (published ? real(1.0) : real(0.5));
+    real slant = published ? 1.0 / cosD : section.inverseCosT;
+
+    real dotIO = clamp(a.sinI * a.sinO + a.cosI * a.cosO * a.cosPhi, real(-1.0), real(1.0));
+    real fR = fresnelSchlick(f0, published ? thesisCosine(0.5 * dotIO) : sqrt(0.5 + 0.5 * dotIO));
+    // TT through the middle (Tafuri), or at Karis' fitted offset (4.16) where that is asked for.
+    real h = m.offsetFit > 0.5
+                 ? min((1.0 + section.inverseEtaPerp * (0.6 - 0.8 * a.cosPhi)) * cosHalfPhi(a), real(1.0))
+                 : real(0.0);
+    real fTT = fresnelSchlick(f0, cosD * sqrt(1.0 - h * h));
+    real pathTT = sqrt(max(1.0 - square(h * (published ? 1.0 / m.eta : section.inverseEtaPerp)), real(0.0)));
+    real fTRT = fresnelSchlick(f0, 0.5 * cosD);  // h = sqrt(3) / 2
+    real pathTRT = published ? real(0.8) : sqrt(max(1.0 - 0.75 * square(section.inverseEtaPerp), real(0.0)));
+
+    real s = clamp(1.5 - 1.5 * m.betaN, real(0.0), real(1.0));
+    real dTT = exp(-3.65 * a.cosPhi - 3.98);
+    // Corrected: scaledBesselI0 has exp(-17 s) in it, which stays in the exponent here.
+    real dTRT = published ? s * exp(s * (17.0 * a.cosPhi - 16.78))
+                          : exp(17.0 * s * (a.cosPhi - 1.0)) * scaledBesselI0(real(17.0), real(0.22)) /
+                                scaledBesselI0(17.0 * s, real(0.0));
+
+    FiberLobes n = noLobes();
+    n.R = real3(cone * marschnerLongitudinal(a, m, 0) * fR * 0.25 * cosHalfPhi(a));
+    n.TT = exp(m.sigmaA * (-2.0 * pathTT * slant)) * (cone * marschnerLongitudinal(a, m, 1) * square(1.0 - fTT) * dTT);
+    n.TRT = exp(m.sigmaA * (-4.0 * pathTRT * slant)) *
+            (cone * marschnerLongitudinal(a, m, 2) * square(1.0 - fTRT) * fTRT * dTRT);
+    return n;
 }
 #endif

@@ -4,6 +4,7 @@
 #include "mipmaps.hpp"
 
 #include <pelage/hair/load.hpp>
+#include <pelage/hair/moment_table.hpp>
 #include <pelage/hair/renderer.hpp>
 
 #include <glm/gtc/packing.hpp>
@@ -60,6 +61,11 @@ Outcome<const GpuGeometry*> Uploads::geometry(const std::shared_ptr<const Geomet
 Outcome<rhi::TextureView> Uploads::texture(const std::string& reference, bool srgb) {
     const std::string key = reference + (srgb ? "|srgb" : "|linear");
     if (const auto found = textures_.find(key); found != textures_.end()) return found->second;
+    if (reference.starts_with("moments:")) {
+        auto view = uploadMoments(reference);
+        if (view) textures_.emplace(key, *view);
+        return view;
+    }
     Image8 image = {1, 1, 4, srgb, {255, 255, 255, 255}};
     if (reference == "builtin.black") {
         image.texels = {0, 0, 0, 255};
@@ -75,6 +81,26 @@ Outcome<rhi::TextureView> Uploads::texture(const std::string& reference, bool sr
     auto view = upload(image, reference);
     if (view) textures_.emplace(key, *view);
     return view;
+}
+
+Outcome<rhi::TextureView> Uploads::uploadMoments(const std::string& name) {
+    // A model without tables binds one black texel.
+    std::optional<MomentTable> table = momentTableOf(name);
+    const std::uint32_t width = table ? table->width() : 1, height = table ? table->height() : 1;
+    const std::vector<std::uint16_t> texels =
+        table ? table->halves() : std::vector<std::uint16_t>(std::size_t{MomentTable::layers} * 4);
+    auto texture = device_.createTexture({.label = name,
+                                          .size = {width, height, MomentTable::layers},
+                                          .format = rhi::TextureFormat::RGBA16Float,
+                                          .usage = rhi::TextureUsage::TextureBinding | rhi::TextureUsage::CopyDst});
+    if (!texture) return failed(texture);
+    auto written = device_.queue().writeTexture({.texture = *texture}, std::as_bytes(std::span(texels)),
+                                                {.bytesPerRow = width * 8, .rowsPerImage = height},
+                                                {width, height, MomentTable::layers});
+    if (!written) return failed(written);
+    auto view = texture->createView({.dimension = rhi::TextureViewDimension::E2DArray});
+    if (!view) return failed(view);
+    return *view;
 }
 
 Outcome<rhi::TextureView> Uploads::upload(const Image8& image, const std::string& label) {

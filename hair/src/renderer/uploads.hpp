@@ -24,7 +24,7 @@ public:
     explicit Uploads(rhi::Device device) : device_(std::move(device)) {}
 
     Outcome<const GpuGeometry*> geometry(const std::shared_ptr<const Geometry>& source);
-    /// "builtin.white", "builtin.grey", "builtin.black", or the path of an image.
+    /// "builtin.white", "builtin.grey", "builtin.black", a moment table by name, or the path of an image.
     Outcome<rhi::TextureView> texture(const std::string& reference, bool srgb);
     /// A 16 x 16 cube of irradiance, RGBA16Float; rewritten only when the environment changed.
     Outcome<rhi::Texture> irradiance(const Environment& environment);
@@ -32,6 +32,7 @@ public:
     void collect();
 
 private:
+    Outcome<rhi::TextureView> uploadMoments(const std::string& name);
     Outcome<rhi::TextureView> upload(const Image8& image, const std::string& label);
 
     rhi::Device device_;

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: MIT
+// What every scattering model takes and gives: the directions in the frame of the fibre, the fibre, a look-up into its
+// tables, and one value for each lobe. Conventions: u is the unit tangent from root to tip; theta = asin(w.u), the angle
+// from the normal plane; phi = phi_i - phi_o; both directions point away from the fibre; wo is the view. S_p has the
+// integral A_p over the sphere of wi, so L_o = S E_perp.
+#ifndef PELAGE_FIBER_GLSL
+#define PELAGE_FIBER_GLSL
+#include "numerics.glsl"
+
+struct FiberAngles {
+    real sinI, cosI, sinO, cosO;  // of theta_i, theta_o; cosines >= 0
+    real phi;                     // in [-pi, pi]
+    real cosPhi;
+    real h, cosGamma;  // offset of the view ray, -1..1, and sqrt(1 - h^2); near field only
+};
+
+// Everything of a fibre that does not depend on directions, made once per material: resolveFiber() in C++.
+struct FiberMaterial {
+    real eta, etaExcess;          // index of refraction; eta^2 - 1, which a float eta near 1 has lost
+    real alpha;                   // tilt, rad: R -2 alpha, TT +alpha, TRT +4 alpha, added to theta_o
+    real betaM, betaN;            // Chiang's roughnesses
+    real inverseScale, peak;      // of the trimmed logistic: 1 / s and 1 / (s tanh(pi / 2s))
+    real3 sigmaA;                 // absorption per radius
+    real3 color;                  // of models that reflect a colour and know no absorption
+    real4 inverseVariance;        // 1 / v of R, TT, TRT, residual
+    real4 norm;                   // 1 / (v (1 - exp(-2 / v)))
+    real4 deviation;              // sqrt(v)
+    real4 sinTilt, cosTilt;       // of the four tilts
+    real4 glint;                  // pxr: gain, 1 / (phi width), cos(theta shift), sin(theta shift)
+    real offsetFit;               // thesis: 1: TT at Karis' fitted offset; 0: at Tafuri's h = 0
+    real nearField;               // 1: h is known; 0: the mean over h is wanted
+};
+
+// Bilinear look-up of the moment table (moments.glsl) at theta_o and phi; zero for models without tables.
+struct FiberTable {
+    real4 lobes;    // N0 of R, TT, TRT, residual
+    real4 lengths;  // mean and variance of the path of TT, of TRT
+    real4 rest;     // the residual's mean segment, and its falloff H at 1/3, 2/3, 1 (moments.glsl)
+};
+
+// S_p.
+struct FiberLobes {
+    real3 R, TT, TRT, RES;
+};
+
+FiberLobes noLobes() {
+    FiberLobes s;
+    s.R = real3(0.0);
+    s.TT = real3(0.0);
+    s.TRT = real3(0.0);
+    s.RES = real3(0.0);
+    return s;
+}
+
+// A vector of length 1, or x where there is none: length 0, infinite, not a number.
+real3 unitOr(real3 v, real3 x) {
+    real large = max(max(abs(v.x), abs(v.y)), abs(v.z));
+    if (!(large > 1e-30 && large < 3e38)) return x;
+    real3 scaled = v / large;
+    real square = dot(scaled, scaled);
+    return square >= 1.0 && square <= 3.0 ? scaled * inversesqrt(square) : x;
+}
+
+// Angles of two directions about the tangent u. None needs unit length. Cosines come from cross products, which keep
+// their digits where a direction lies along the fibre; there phi is any and comes out as 0.
+FiberAngles fiberAngles(real3 u, real3 wi, real3 wo) {
+    real3 t = unitOr(u, real3(1.0, 0.0, 0.0));
+    real3 i = unitOr(wi, real3(0.0, 1.0, 0.0)), o = unitOr(wo, real3(0.0, 1.0, 0.0));
+    real3 acrossI = cross(t, i), acrossO = cross(t, o);
+    FiberAngles a;
+    a.sinI = clamp(dot(t, i), real(-1.0), real(1.0));
+    a.sinO = clamp(dot(t, o), real(-1.0), real(1.0));
+    a.cosI = sqrt(dot(acrossI, acrossI));
+    a.cosO = sqrt(dot(acrossO, acrossO));
+    real c = dot(acrossO, acrossI), s = dot(t, cross(acrossO, acrossI));
+    a.phi = atanFull(s, c);
+    real size = sqrt(c * c + s * s);
+    a.cosPhi = size > 0.0 ? clamp(c / size, real(-1.0), real(1.0)) : real(1.0);
+    a.h = 0.0;
+    a.cosGamma = 1.0;
+    return a;
+}
+
+real square(real x) { return x * x; }
+
+// |cos| and |sin| of theta_d = (theta_o - theta_i) / 2, as half the sum and difference of two unit vectors: no digits
+// are lost near 0 or 90 degrees.
+real cosThetaD(FiberAngles a) { return 0.5 * sqrt(square(a.cosI + a.cosO) + square(a.sinI + a.sinO)); }
+real sinThetaD(FiberAngles a) { return 0.5 * sqrt(square(a.cosI - a.cosO) + square(a.sinI - a.sinO)); }
+real thetaH(FiberAngles a) { return 0.5 * (atanRight(a.sinI, a.cosI) + atanRight(a.sinO, a.cosO)); }
+real cosHalfPhi(FiberAngles a) { return sqrt(max(0.5 + 0.5 * a.cosPhi, real(0.0))); }
+
+// M_p, d'Eon et al. 2011 (7), in the form that neither overflows nor cancels. lobe: 0 R, 1 TT, 2 TRT, 3 residual.
+real longitudinal(FiberAngles a, FiberMaterial m, int lobe) {
+    real sinO = a.sinO * m.cosTilt[lobe] + a.cosO * m.sinTilt[lobe];
+    real cosO = abs(a.cosO * m.cosTilt[lobe] - a.sinO * m.sinTilt[lobe]);
+    real inverseV = m.inverseVariance[lobe];
+    real across = a.cosI - cosO, along = a.sinI + sinO;
+    real exponent = -0.5 * inverseV * (across * across + along * along);
+    return m.norm[lobe] * scaledBesselI0(a.cosI * cosO * inverseV, exponent);
+}
+
+// Logistic of Chiang 2016 (8), trimmed to one turn and repeated.
+real trimmedLogistic(real x, FiberMaterial m) {
+    real e = exp(-abs(wrapAngle(x)) * m.inverseScale);
+    return m.peak * e / square(1.0 + e);
+}
+
+// Unpolarised Fresnel reflectance (x) and transmittance (y) at the cosine of incidence, each without cancellation.
+// index > 1; excess = index^2 - 1.
+real2 fresnelExact(real index, real excess, real cosine) {
+    real inside = sqrt(excess + cosine * cosine);  // index cos(refracted)
+    real s = cosine + inside, p = index * index * cosine + inside;
+    real rs = (cosine - inside) / s, rp = (index * index * cosine - inside) / p;
+    real product = 2.0 * cosine * inside;
+    real2 f;
+    f.x = 0.5 * (rs * rs + rp * rp);
+    f.y = product * (1.0 / (s * s) + index * index / (p * p));
+    return f;
+}
+
+// Schlick 1994; cosine clamped to 0..1.
+real fresnelSchlick(real f0, real cosine) {
+    real c = 1.0 - clamp(cosine, real(0.0), real(1.0));
+    return f0 + (1.0 - f0) * (c * c) * (c * c) * c;
+}
+
+real gaussian(real deviation, real x) {
+    real t = x / deviation;
+    return exp(-0.5 * t * t) * (0.398942280401432678 / deviation);
+}
+#endif
