@@ -34,7 +34,10 @@ Surface fetchSurface() {
     return s;
 }
 
+// Targets are 16-bit floats, whose largest number is 65504: more than that would come out as infinity and stay one
+// through resolve and display.
 vec4 finish(vec3 radiance, Surface s) {
+    radiance = min(radiance, vec3(65000.0));
     if (alphaMode == ALPHA_BLEND) return vec4(radiance * s.alpha, s.alpha);
     return vec4(radiance, 1.0);
 }
