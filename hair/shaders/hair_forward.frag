@@ -50,6 +50,6 @@ void main() {
         if (lobeRES) sum += material.gainRES * l.RES;
         radiance += sum * environmentIrradiance(s.normal) * material.envScale;
     }
-    if (ambientOn) radiance += s.color * ambient * material.ambientScatter;
+    if (ambientOn) radiance += m.color * ambient * material.ambientScatter;
     o_color = finish(radiance, s);
 }

@@ -104,7 +104,7 @@ double furnace(double thetaO, double beta, double alpha, bool corrected) {
 
 // As printed the model returns about twice what it receives, since M is of unit area over theta_h = (theta_i +
 // theta_r) / 2; halved it loses little: a Gaussian in place of the exact lobe, and no residual. The figures are from
-// the facts, section 2, item 2: beta = 10 degrees, alpha = -10 degrees.
+// measured outside this project: beta = 10 degrees, alpha = -10 degrees.
 TEST(Marschner, PublishedMarschnerReflectsTwice) {
     constexpr struct {
         double theta, printed;

@@ -14,6 +14,7 @@
 #ifndef PELAGE_GERARD_GLSL
 #define PELAGE_GERARD_GLSL
 #include "marschner.glsl"
+#include "moments.glsl"
 
 // Complete elliptic integral of the second kind at parameter 1 - m1, 0 < m1 <= 1: Abramowitz and Stegun 17.3.36, 2e-8.
 real gerardEllipticE(real m1) {
@@ -52,12 +53,13 @@ FiberLobes scatterGerard(FiberAngles a, FiberMaterial m, FiberTable table, bool 
         real eta2 = (m.eta * m.eta - square(section.cosine) + 1.0) / section.cosine;
         lengthTRT = max(8.0 * (1.0 - 1.5 / eta2), real(0.0));
     }
+    real4 n0 = momentLobes(fiberSection(m, a.cosO), table);
     FiberLobes n = noLobes();
-    n.R = real3(table.lobes.x * cone * gerardLobe(0.5 * m.deviation.x, h - m.alpha, published));
+    n.R = real3(n0.x * cone * gerardLobe(0.5 * m.deviation.x, h - m.alpha, published));
     n.TT = exp(-m.sigmaA * lengthTT) *
-           (table.lobes.y * cone * gerardLobe(0.5 * m.deviation.y, h + 0.5 * m.alpha, published));
+           (n0.y * cone * gerardLobe(0.5 * m.deviation.y, h + 0.5 * m.alpha, published));
     n.TRT = exp(-m.sigmaA * lengthTRT) *
-            (table.lobes.z * cone * gerardLobe(0.5 * m.deviation.z, h + 1.5 * m.alpha, published));
+            (n0.z * cone * gerardLobe(0.5 * m.deviation.z, h + 1.5 * m.alpha, published));
     return n;
 }
 #endif

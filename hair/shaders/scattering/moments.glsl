@@ -13,6 +13,21 @@
 real momentAxisPhi(real phi) { return abs(phi) / pi; }
 real momentAxisTheta(real cosO) { return cosO; }
 
+// Near 90 degrees TT and TRT fall with the square of the cosine, and the residual with the cosine. The table holds what
+// is left without that, which is nearly linear between its rows. How near depends on the index: 0.21 sqrt(eta^2 - 1) is
+// where the transmittance of the middle of a fibre is about a half.
+real momentRim(FiberSection s) { return s.cosine / (s.cosine + 0.21 * s.root); }
+
+// N0 of R, TT, TRT, residual.
+real4 momentLobes(FiberSection s, FiberTable table) {
+    real rim = momentRim(s);
+    real4 n = table.lobes;
+    n.y *= rim * rim;
+    n.z *= rim * rim;
+    n.w *= rim;
+    return n;
+}
+
 // exp(-sigma m1 + 1/2 sigma^2 m2), monotone in sigma.
 real3 absorb(real3 sigmaA, real mean, real variance, real shortest) {
     real3 linear = sigmaA * mean;
@@ -37,11 +52,12 @@ real3 absorbResidual(real3 sigmaA, real4 rest) {
 FiberLobes azimuthMoments(FiberAngles a, FiberMaterial m, FiberTable table) {
     FiberSection s = fiberSection(m, a.cosO);
     real shortest = shortestSegment(s, m);
+    real4 n0 = momentLobes(s, table);
     FiberLobes n;
-    n.R = real3(table.lobes.x);
-    n.TT = table.lobes.y * absorb(m.sigmaA, table.lengths.x, table.lengths.y, shortest);
-    n.TRT = table.lobes.z * absorb(m.sigmaA, table.lengths.z, table.lengths.w, 2.0 * shortest);
-    n.RES = table.lobes.w * absorbResidual(m.sigmaA, table.rest);
+    n.R = real3(n0.x);
+    n.TT = n0.y * absorb(m.sigmaA, table.lengths.x, table.lengths.y, shortest);
+    n.TRT = n0.z * absorb(m.sigmaA, table.lengths.z, table.lengths.w, 2.0 * shortest);
+    n.RES = n0.w * absorbResidual(m.sigmaA, table.rest);
     return n;
 }
 

@@ -24,7 +24,7 @@ using real3 = glm::dvec3;
 using real4 = glm::dvec4;
 using namespace glm;
 
-#include "../../shaders/scattering/attenuation.glsl"
+#include "../../shaders/scattering/moments.glsl"
 
 }  // namespace moments_double
 
@@ -85,6 +85,8 @@ struct MomentTable::State {
     std::vector<std::unique_ptr<Row>> rows;
     std::vector<std::optional<std::array<Texel, 3>>> texels;  // row by row
 
+    // At 90 degrees nothing enters the fibre and no path has a mean: the first row is the limit.
+    double cosineOf(std::uint32_t y) const { return y == 0 ? 1e-4 : static_cast<double>(y) / (height - 1.0); }
     const Row& row(std::uint32_t y);
     const std::array<Texel, 3>& at(std::uint32_t x, std::uint32_t y);
 };
@@ -119,8 +121,7 @@ std::uint32_t MomentTable::height() const {
 const Row& MomentTable::State::row(std::uint32_t y) {
     if (rows[y]) return *rows[y];
     auto made = std::make_unique<Row>();
-    // At 90 degrees nothing enters the fibre and no path has a mean: the first row is its limit.
-    const double cosine = y == 0 ? 1e-4 : static_cast<double>(y) / (height - 1.0);
+    const double cosine = cosineOf(y);
     const FiberSection section = fiberSection(fiber, cosine);
     double rest = 0, segments = 0, path = 0, continued[3] = {};
     for (auto& lobe : made->nodes) lobe.reserve(nodes);
@@ -146,7 +147,7 @@ const Row& MomentTable::State::row(std::uint32_t y) {
         path += light * (3.0 + r) * segment;
         for (int k3 = 0; k3 < 3; ++k3) continued[k3] += light / (1.0 + r * (k3 + 1) / 3.0);
     }
-    made->residual = {half(rest * 0.5 / pi)};
+    made->residual = {half(rest * 0.5 / pi / momentRim(section))};
     made->rest = {half(path / segments), half(rest / continued[0]), half(rest / continued[1]),
                   half(rest / continued[2])};
     for (auto& lobe : made->nodes) {
@@ -169,8 +170,9 @@ const std::array<MomentTable::Texel, 3>& MomentTable::State::at(std::uint32_t x,
         mean[p] = sums.first / sums.n;
         variance[p] = std::max(sums.second / sums.n - mean[p] * mean[p], 0.0);
     }
+    const double rim = momentRim(fiberSection(fiber, cosineOf(y))), scale = fiber.peak / (rim * rim);
     cached.emplace();
-    (*cached)[0] = {half(fiber.peak * n[0]), half(fiber.peak * n[1]), half(fiber.peak * n[2]), source.residual[0]};
+    (*cached)[0] = {half(fiber.peak * n[0]), half(scale * n[1]), half(scale * n[2]), source.residual[0]};
     (*cached)[1] = {half(mean[1]), half(variance[1]), half(mean[2]), half(variance[2])};
     (*cached)[2] = source.rest;
     return *cached;

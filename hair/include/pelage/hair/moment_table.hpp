@@ -16,7 +16,7 @@ namespace pelage::hair {
 /// A texture of three layers of RGBA16F over |phi| in [0, pi] (x) and the inclination of the view (y). Texels lie on
 /// the ends of both ranges. Texels are computed when they are first asked for, so reading a few is cheap; one object
 /// must not be read from two threads.
-///   layer 0: N0 of R, TT, TRT, residual (1/rad)
+///   layer 0: N0 of R, TT, TRT, residual (1/rad), the last three without their fall towards 90 degrees (momentRim)
 ///   layer 1: mean and variance of the path of TT, then of TRT (radii, radii^2)
 ///   layer 2: the residual: mean segment (radii), and 1 / mean of 1 / (1 + r x) at x = 1/3, 2/3, 1 (moments.glsl)
 class MomentTable {
