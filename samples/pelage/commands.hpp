@@ -58,6 +58,14 @@ struct ScatterOptions {
 /// 1 when some rows were bad: they are named, and the others evaluated.
 int scatter(const ScatterOptions& options);
 
+struct AccuracyOptions {
+    std::string directory = "docs";  // accuracy.md and images/scattering_*.svg
+    bool quick = false;              // coarser
+    bool useDevice = true;           // for the rounding of its floats
+    DeviceOptions device = {};
+};
+int accuracy(const AccuracyOptions& options);
+
 int info(const std::vector<std::string>& files);
 int check(const std::vector<std::string>& files);
 

@@ -110,6 +110,18 @@ void addScatter(CLI::App& app, ScatterOptions& options, int& result) {
     command->callback([&] { result = scatter(options); });
 }
 
+void addAccuracy(CLI::App& app, AccuracyOptions& options, int& result) {
+    CLI::App* command =
+        app.add_subcommand("accuracy", "Measure every scattering model and write a page about it, with plots");
+    command->add_option("-o,--output", options.directory, "Directory for accuracy.md and images/scattering_*.svg")
+        ->type_name("DIR")
+        ->capture_default_str();
+    command->add_flag("--quick", options.quick, "Coarser: to see that it works");
+    addDevice(*command, options.device);
+    command->add_flag("!--no-device", options.useDevice, "Leave out what is measured on a device");
+    command->callback([&] { result = accuracy(options); });
+}
+
 void addFiles(CLI::App& app, const char* name, const char* help, std::vector<std::string>& files, int& result,
               int (*run)(const std::vector<std::string>&)) {
     CLI::App* command = app.add_subcommand(name, help);
@@ -127,12 +139,14 @@ int run(int argc, char** argv) {
     GalleryOptions galleryOptions;
     BenchOptions benchOptions;
     ScatterOptions scatterOptions;
+    AccuracyOptions accuracyOptions;
     std::vector<std::string> files;
     addRender(app, renderOptions, result);
     addView(app, viewOptions, result);
     addGallery(app, galleryOptions, result);
     addBench(app, benchOptions, result);
     addScatter(app, scatterOptions, result);
+    addAccuracy(app, accuracyOptions, result);
     addFiles(app, "info", "Say what is in hair files", files, result, info);
     addFiles(app, "check", "Find faults in pass trees, material types, materials and scenes", files, result, check);
     try {
