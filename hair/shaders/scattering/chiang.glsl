@@ -43,10 +43,11 @@ FiberLobes scatterChiang(FiberAngles a, FiberMaterial m, FiberTable, bool) {
             cosGamma = next;
         }
     }
-    n.R *= longitudinal(a, m, 0);
-    n.TT *= longitudinal(a, m, 1);
-    n.TRT *= longitudinal(a, m, 2);
-    n.RES *= longitudinal(a, m, 3);
+    real4 along = longitudinals(a, m);
+    n.R *= along.x;
+    n.TT *= along.y;
+    n.TRT *= along.z;
+    n.RES *= along.w;
     return n;
 }
 #endif

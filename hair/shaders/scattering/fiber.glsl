@@ -90,14 +90,13 @@ real sinThetaD(FiberAngles a) { return 0.5 * sqrt(square(a.cosI - a.cosO) + squa
 real thetaH(FiberAngles a) { return 0.5 * (atanRight(a.sinI, a.cosI) + atanRight(a.sinO, a.cosO)); }
 real cosHalfPhi(FiberAngles a) { return sqrt(max(0.5 + 0.5 * a.cosPhi, real(0.0))); }
 
-// M_p, d'Eon et al. 2011 (7), in the form that neither overflows nor cancels. lobe: 0 R, 1 TT, 2 TRT, 3 residual.
-real longitudinal(FiberAngles a, FiberMaterial m, int lobe) {
-    real sinO = a.sinO * m.cosTilt[lobe] + a.cosO * m.sinTilt[lobe];
-    real cosO = abs(a.cosO * m.cosTilt[lobe] - a.sinO * m.sinTilt[lobe]);
-    real inverseV = m.inverseVariance[lobe];
-    real across = a.cosI - cosO, along = a.sinI + sinO;
-    real exponent = -0.5 * inverseV * (across * across + along * along);
-    return m.norm[lobe] * scaledBesselI0(a.cosI * cosO * inverseV, exponent);
+// M of R, TT, TRT, residual; d'Eon et al. 2011 (7), in the form that neither overflows nor cancels.
+real4 longitudinals(FiberAngles a, FiberMaterial m) {
+    real4 sinO = a.sinO * m.cosTilt + a.cosO * m.sinTilt;
+    real4 cosO = abs(a.cosO * m.cosTilt - a.sinO * m.sinTilt);
+    real4 across = real4(a.cosI) - cosO, along = real4(a.sinI) + sinO;
+    real4 exponent = m.inverseVariance * (across * across + along * along) * real(-0.5);
+    return m.norm * scaledBesselI0(a.cosI * cosO * m.inverseVariance, exponent);
 }
 
 // Logistic of Chiang 2016 (8), trimmed to one turn and repeated.

@@ -63,10 +63,11 @@ FiberLobes azimuthMoments(FiberAngles a, FiberMaterial m, FiberTable table) {
 
 FiberLobes scatterMoments(FiberAngles a, FiberMaterial m, FiberTable table, bool) {
     FiberLobes n = azimuthMoments(a, m, table);
-    n.R *= longitudinal(a, m, 0);
-    n.TT *= longitudinal(a, m, 1);
-    n.TRT *= longitudinal(a, m, 2);
-    n.RES *= longitudinal(a, m, 3);
+    real4 along = longitudinals(a, m);
+    n.R *= along.x;
+    n.TT *= along.y;
+    n.TRT *= along.z;
+    n.RES *= along.w;
     return n;
 }
 #endif

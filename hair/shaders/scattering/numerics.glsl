@@ -41,47 +41,53 @@ real wrapAngle(real x) {
     return (x - n * 6.28125) - n * 0.00193530717958647693;
 }
 
-// exp(exponent) I0(a) for a >= 0, where exponent + a stays small: never overflows. The power series in a^2 below 5
-// (relative error 6e-8), the asymptotic form exp(a) / sqrt(a) times a polynomial in 1 / a above (1.4e-7). The caller
-// passes `exponent` with the a of the exponential already taken out: exp(exponent) exp(-a) I0(a) is the result.
-real scaledBesselI0(real a, real exponent) {
 #ifdef PELAGE_DOUBLE
-    if (a < 30.0) {
-        real quarter = 0.25 * a * a, term = 1.0, sum = 1.0;
-        for (int k = 1; k < 200; ++k) {
-            term *= quarter / (real(k) * real(k));
-            sum += term;
-            if (term < 1e-18 * sum) break;
-        }
-        return sum * exp(exponent - a);
-    }
+// exp(-a) I0(a): the power series, whose terms are all positive, and from 30 the asymptotic one.
+real besselSeries(real a) {
     real term = 1.0, sum = 1.0;
-    for (int k = 1; k < 40; ++k) {
-        real odd = 2.0 * real(k) - 1.0;
-        term *= odd * odd / (8.0 * real(k) * a);
-        sum += term;
-        if (term < 1e-18 * sum) break;
+    if (a < 30.0) {
+        for (int k = 1; k < 200 && term > 1e-18 * sum; ++k) {
+            term *= 0.25 * a * a / (real(k) * real(k));
+            sum += term;
+        }
+        return sum * exp(-a);
     }
-    return sum * exp(exponent) / sqrt(2.0 * pi * a);
+    for (int k = 1; k < 40 && term > 1e-18 * sum; ++k) {
+        term *= (2.0 * real(k) - 1.0) * (2.0 * real(k) - 1.0) / (8.0 * real(k) * a);
+        sum += term;
+    }
+    return sum / sqrt(2.0 * pi * a);
+}
+#endif
+
+// exp(exponent) exp(-a) I0(a) for a >= 0, four at a time: never overflows. The power series in a^2 below 5 (relative
+// error 6e-8), the asymptotic form 1 / sqrt(a) times a polynomial in 1 / a above (1.4e-7).
+real4 scaledBesselI0(real4 a, real4 exponent) {
+#ifdef PELAGE_DOUBLE
+    real4 r = exp(exponent);
+    for (int k = 0; k < 4; ++k) r[k] *= besselSeries(a[k]);
+    return r;
 #else
-    real q = a * a;
-    real lower = 0.9999999405967178 +
-                 q * (0.25000030397169337 +
-                      q * (0.01562474540427444 +
-                           q * (0.0004341087895108569 +
-                                q * (6.769073416200177e-06 +
-                                     q * (6.887625288046678e-08 +
-                                          q * (4.2223215428152036e-10 + q * 3.5349337952499003e-12))))));
-    real w = 1.0 / max(a, 1.0);
-    real upper = 0.3989422548141907 +
-                 w * (0.049880174002632 +
-                      w * (0.027119837558600337 +
-                           w * (0.053808947142383545 +
-                                w * (-0.23573702059330365 + w * (1.455701172010115 + w * -1.7565101604603381)))));
-    bool isSmall = a < 5.0;
-    return exp(isSmall ? exponent - a : exponent) * (isSmall ? lower : upper * sqrt(w));
+    real4 q = min(a * a, real4(25.0));
+    real4 lower = q * 3.5349337952499003e-12 + 4.2223215428152036e-10;
+    lower = q * lower + 6.887625288046678e-08;
+    lower = q * lower + 6.769073416200177e-06;
+    lower = q * lower + 0.0004341087895108569;
+    lower = q * lower + 0.01562474540427444;
+    lower = q * lower + 0.25000030397169337;
+    lower = q * lower + 0.9999999405967178;
+    real4 w = real4(1.0) / max(a, real4(1.0));
+    real4 upper = w * -1.7565101604603381 + 1.455701172010115;
+    upper = w * upper - 0.23573702059330365;
+    upper = w * upper + 0.053808947142383545;
+    upper = w * upper + 0.027119837558600337;
+    upper = w * upper + 0.049880174002632;
+    upper = w * upper + 0.3989422548141907;
+    real4 isSmall = real4(lessThan(a, real4(5.0)));
+    return exp(exponent - isSmall * a) * mix(upper * sqrt(w), lower, isSmall);
 #endif
 }
+real scaledBesselI0(real a, real exponent) { return scaledBesselI0(real4(a), real4(exponent)).x; }
 
 // What is not a finite number above zero becomes zero: a comparison with NaN is false.
 real finiteOrZero(real x) { return x > 0.0 && x < 3e38 ? x : 0.0; }

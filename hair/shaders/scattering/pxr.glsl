@@ -23,10 +23,11 @@ FiberLobes scatterPxr(FiberAngles a, FiberMaterial m, FiberTable table, bool) {
     } else {
         n = azimuthMoments(a, m, table);
     }
-    n.R *= longitudinal(a, m, 0);
-    n.TT *= longitudinal(a, m, 1);
-    n.RES *= longitudinal(a, m, 3);
-    real3 trt = n.TRT * longitudinal(a, m, 2);
+    real4 along = longitudinals(a, m);
+    n.R *= along.x;
+    n.TT *= along.y;
+    n.RES *= along.w;
+    real3 trt = n.TRT * along.z;
     real share = m.glint.x / (1.0 + m.glint.x);
     if (share > 0.0) {
         // Two logistics around +-phi_c, of TT's sharp longitudinal width, with the light TRT has over all azimuths: its
@@ -43,7 +44,7 @@ FiberLobes scatterPxr(FiberAngles a, FiberMaterial m, FiberTable table, bool) {
         real azimuth = 0.5 * (trimmedLogistic(a.phi - caustic, g) + trimmedLogistic(a.phi + caustic, g));
         FiberLobes light = attenuation(fresnelExact(m.eta, m.etaExcess, s.cosine * cosGamma), m.sigmaA,
                                        segmentLength(s, cosGammaT));
-        trt = (1.0 - share) * trt + share * light.TRT * azimuth * longitudinal(a, g, 1);
+        trt = (1.0 - share) * trt + share * light.TRT * azimuth * longitudinals(a, g).y;
     }
     n.TRT = trt;
     return n;

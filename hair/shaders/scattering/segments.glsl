@@ -104,10 +104,11 @@ FiberLobes scatterSegments(FiberAngles a, FiberMaterial m, FiberTable, bool) {
         }
         before = now;
     }
-    n.R *= longitudinal(a, m, 0);
-    n.TT *= longitudinal(a, m, 1);
-    n.TRT *= longitudinal(a, m, 2);
-    n.RES *= longitudinal(a, m, 3) * (0.5 / pi);
+    real4 along = longitudinals(a, m);
+    n.R *= along.x;
+    n.TT *= along.y;
+    n.TRT *= along.z;
+    n.RES *= along.w * (0.5 / pi);
     return n;
 }
 #endif
