@@ -62,18 +62,18 @@ const bool usesMomentTable =
 #define MOMENT_TEXTURE sampler2DArray(momentTable, s_material)
 #include "moment_texture.glsl"
 
-FiberTable fetchMoments(FiberAngles a) {
+FiberTable fetchMoments(FiberAngles a, FiberMaterial m) {
     FiberTable t;
     t.lobes = vec4(0.0);
     t.lengths = vec4(0.0);
     t.rest = vec4(0.0);
-    if (usesMomentTable) t = sampleMoments(a, lobeRES);
+    if (usesMomentTable) t = sampleMoments(a, m, lobeRES);
     return t;
 }
 
 // Radiance per E_perp, with the artist's gains. Lobes that are off leave nothing behind.
 vec3 scatter(FiberAngles a, FiberMaterial m) {
-    FiberLobes s = scatterFiber(scatteringModel, asPublished, a, m, fetchMoments(a));
+    FiberLobes s = scatterFiber(scatteringModel, asPublished, a, m, fetchMoments(a, m));
     vec3 sum = vec3(0.0);
     if (lobeR) sum += material.gainR * s.R;
     if (lobeTT) sum += material.gainTT * s.TT;

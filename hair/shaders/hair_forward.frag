@@ -43,7 +43,7 @@ void main() {
         FiberAngles a = fiberAngles(s.tangent, s.normal, s.wo);
         a.h = h;
         a.cosGamma = sqrt(max(1.0 - h * h, 0.0));
-        FiberLobes l = scatterFiber(scatteringModel, asPublished, a, m, fetchMoments(a));
+        FiberLobes l = scatterFiber(scatteringModel, asPublished, a, m, fetchMoments(a, m));
         vec3 sum = vec3(0.0);
         if (lobeR) sum += material.gainR * l.R;
         if (lobeTRT) sum += material.gainTRT * l.TRT;

@@ -109,7 +109,9 @@ FunctorType fiberShape() {
         fiber.betaM = real(in[2]);
         fiber.betaN = real(in[3]);
         fiber.alpha = real(in[4]) * radiansPerDegree;
-        for (std::size_t p = 0; p < 3; ++p) {
+        // The controls belong to pxr; what they were set to there means nothing to the others.
+        const bool controls = in[0].integer == static_cast<std::int64_t>(ScatteringModel::Pxr);
+        for (std::size_t p = 0; controls && p < 3; ++p) {
             fiber.widthScale[p] = static_cast<double>(in[5].number[p]);
             fiber.shift[p] = static_cast<double>(in[6].number[p]) * radiansPerDegree;
         }

@@ -76,7 +76,9 @@ Outcome<std::vector<ScatteredLobes>> ScatterCompute::evaluate(ScatteringModel mo
         for (const ScatterRow& row : rows.subspan(start, count)) {
             MomentTable* table = nullptr;
             if (usesTable) {
+                // The texels a row needs are copied into it: a few tables are enough for rows that share one.
                 const std::pair key{row.fiber.eta, row.fiber.betaN};
+                if (tables.size() > 8) tables.clear();
                 table = &tables.try_emplace(key, key.first, key.second).first->second;
             }
             sent.push_back(pack(row, table));

@@ -125,6 +125,10 @@ Outcome<ScatterPlot> plotOf(const ScatterOptions& options) {
 }
 
 int writePlot(const ScatterOptions& options) {
+    if (options.exact) return report(contradiction("--plot draws the truth anyway: leave --exact out"));
+    for (const double x : {options.thetaO, options.eta, options.betaM, options.betaN, options.alpha, options.sigmaA}) {
+        if (!std::isfinite(x)) return report(contradiction("the fibre of --plot needs numbers, found nan or inf"));
+    }
     if (options.input != "-" || options.output != "-") {
         return report(contradiction("--plot draws one fibre, given by --eta and others: no INPUT and no -o"));
     }

@@ -40,6 +40,16 @@ Outcome<std::string> readTextFile(const std::string& path) {
 
 Outcome<void> writeTextFile(const std::string& path, const std::string& text) {
     if (path == "-") return writeOut(text);
+    std::error_code unknown;
+    if (fs::exists(path, unknown) && !fs::is_regular_file(path, unknown)) {
+        // A device or a pipe is written to; renaming a file over it would replace it.
+        if (fs::is_directory(path, unknown)) return tl::unexpected(notWritten(path, "it is a directory"));
+        std::ofstream special(path, std::ios::binary);
+        special.write(text.data(), static_cast<std::streamsize>(text.size()));
+        special.close();
+        if (!special) return tl::unexpected(notWritten(path, "it takes no more"));
+        return {};
+    }
     const std::string partial = path + ".part";
     std::ofstream file(partial, std::ios::binary | std::ios::trunc);
     file.write(text.data(), static_cast<std::streamsize>(text.size()));

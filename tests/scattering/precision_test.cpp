@@ -99,5 +99,24 @@ TEST_F(Precision, GpuFloatsAreCloseToTheDoubleBuild) {
     }
 }
 
+// segment_cdf takes differences of nearly equal integrals in the tails of its lobes: there its floats are right to a
+// share of the lobe, not of the value. 0.01 is an eighth of a fibre that scatters evenly.
+TEST_F(Precision, SegmentsAreRightToAShareOfTheLobe) {
+    hair::ScatterCompute compute(gpu.device);
+    const auto all = rows(0.1, 1.0, false, 5000);
+    const auto found = compute.evaluate(ScatteringModel::SegmentCdf, false, all);
+    ASSERT_TRUE(found) << found.error().text;
+    const auto exact = onCpu(hair::scatterDouble, ScatteringModel::SegmentCdf, all);
+    double largest = 0;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        for (std::size_t p = 0; p < 4; ++p) {
+            const double e = exact[i].lobe[p][0];
+            largest = std::max(largest, std::abs((*found)[i].lobe[p][0] - e) / std::max(e, 0.01));
+        }
+    }
+    std::printf("segment_cdf  beta 0.10..1.00: GPU %.2g of max(S, 0.01)\n", largest);
+    EXPECT_LE(largest, 2e-4);
+}
+
 }  // namespace
 }  // namespace pelage::test

@@ -113,7 +113,7 @@ FiberAngles anglesOf(vec3 u, vec3 wi, vec3 wo, float h) {
 }
 
 FiberLobes bareAt(FiberAngles a, FiberMaterial m) {
-    return scatterFiberBare(scatteringModel, asPublished, a, m, sampleMoments(a, true));
+    return scatterFiberBare(scatteringModel, asPublished, a, m, sampleMoments(a, m, true));
 }
 
 void main() {
@@ -138,7 +138,7 @@ void main() {
             wi = broken(wi);
         }
         FiberAngles a = anglesOf(u, wi, wo, h);
-        FiberTable t = sampleMoments(a, true);
+        FiberTable t = sampleMoments(a, m, true);
         FiberLobes bare = scatterFiberBare(scatteringModel, asPublished, a, m, t);
         FiberLobes guarded = scatterFiber(scatteringModel, asPublished, a, m, t);
         check(bare, guarded);
@@ -184,6 +184,8 @@ void main() {
         FiberAngles mirror = a;
         mirror.phi = -a.phi;
         mirror.h = -a.h;
-        atomicMax(found.worstMirror, ordered(difference(bareAt(mirror, m), bare, m)));
+        FiberLobes mirrored = bareAt(mirror, m);
+        check(mirrored, mirrored);
+        atomicMax(found.worstMirror, ordered(difference(mirrored, bare, m)));
     }
 }

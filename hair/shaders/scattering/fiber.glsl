@@ -52,6 +52,8 @@ FiberLobes noLobes() {
     return s;
 }
 
+real square(real x) { return x * x; }
+
 // A vector of length 1, or x where there is none: length 0, infinite, not a number.
 real3 unitOr(real3 v, real3 x) {
     real large = max(max(abs(v.x), abs(v.y)), abs(v.z));
@@ -74,14 +76,13 @@ FiberAngles fiberAngles(real3 u, real3 wi, real3 wo) {
     a.cosO = sqrt(dot(acrossO, acrossO));
     real c = dot(acrossO, acrossI), s = dot(t, cross(acrossO, acrossI));
     a.phi = atanFull(s, c);
-    real size = sqrt(c * c + s * s);
-    a.cosPhi = size > 0.0 ? clamp(c / size, real(-1.0), real(1.0)) : real(1.0);
+    real large = max(abs(c), abs(s));  // squares of products of two small cosines would be zero
+    a.cosPhi = large > 0.0 ? clamp((c / large) * inversesqrt(square(c / large) + square(s / large)), real(-1.0), real(1.0))
+                           : real(1.0);
     a.h = 0.0;
     a.cosGamma = 1.0;
     return a;
 }
-
-real square(real x) { return x * x; }
 
 // |cos| and |sin| of theta_d = (theta_o - theta_i) / 2, as half the sum and difference of two unit vectors: no digits
 // are lost near 0 or 90 degrees.

@@ -9,14 +9,19 @@
 #define PELAGE_MOMENTS_GLSL
 #include "attenuation.glsl"
 
-// Where the table is read, both in [0, 1]: x from |phi|, y from theta_o.
+// Where the table is read, both in [0, 1]: x from |phi|, y from theta_o (momentAxisTheta below).
 real momentAxisPhi(real phi) { return abs(phi) / pi; }
-real momentAxisTheta(real cosO) { return cosO; }
 
 // Near 90 degrees TT and TRT fall with the square of the cosine, and the residual with the cosine. The table holds what
 // is left without that, which is nearly linear between its rows. How near depends on the index: 0.21 sqrt(eta^2 - 1) is
 // where the transmittance of the middle of a fibre is about a half.
 real momentRim(FiberSection s) { return s.cosine / (s.cosine + 0.21 * s.root); }
+
+// Two thirds of the rows lie evenly in cos(theta_o), the others in its rim function: for an index near 1 all that Fresnel's terms do
+// happens within a few thousandths of the cosine.
+real momentAxisTheta(FiberSection s, FiberMaterial m) {
+    return 0.65 * s.cosine + 0.35 * (1.0 + 0.21 * m.eta) * momentRim(s);
+}
 
 // N0 of R, TT, TRT, residual.
 real4 momentLobes(FiberSection s, FiberTable table) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // R, TT, TRT and glint under artists' controls over the exact lobes, after the ideas of Pekelis et al. 2015 (their
 // equations are not public). Widths and shifts are those of the FiberMaterial, which here may be set lobe by lobe; gains
-// and tints are applied by weights.glsl. The glint is light taken out of TRT and gathered where the azimuth of TRT turns
+// and tints are applied by the caller. The glint is light taken out of TRT and gathered where the azimuth of TRT turns
 // back, the caustic of a smooth fibre, so it costs no energy: gain 1 moves half of TRT.
 #ifndef PELAGE_PXR_GLSL
 #define PELAGE_PXR_GLSL

@@ -63,7 +63,14 @@ Outcome<rhi::TextureView> Uploads::texture(const std::string& reference, bool sr
     if (const auto found = textures_.find(key); found != textures_.end()) return found->second;
     if (reference.starts_with("moments:")) {
         auto view = uploadMoments(reference);
-        if (view) textures_.emplace(key, *view);
+        if (!view) return view;
+        // A slider that moves asks for a table at every step: the oldest go. Bind groups keep what they still use.
+        momentTables_.push_back(key);
+        if (momentTables_.size() > 16) {
+            textures_.erase(momentTables_.front());
+            momentTables_.pop_front();
+        }
+        textures_.emplace(key, *view);
         return view;
     }
     Image8 image = {1, 1, 4, srgb, {255, 255, 255, 255}};

@@ -6,6 +6,7 @@
 #include <pelage/hair/scene.hpp>
 #include <pelage/rhi/rhi.hpp>
 
+#include <deque>
 #include <map>
 #include <memory>
 #include <string>
@@ -38,6 +39,7 @@ private:
     rhi::Device device_;
     std::map<const Geometry*, GpuGeometry> geometry_;
     std::map<std::string, rhi::TextureView> textures_;
+    std::deque<std::string> momentTables_;  // keys of textures_, oldest first
     rhi::Texture irradiance_;
     Environment irradianceOf_ = {};
 };

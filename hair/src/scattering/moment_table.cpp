@@ -7,10 +7,11 @@
 #include <glm/gtc/packing.hpp>
 
 #include <algorithm>
+#include <atomic>
 #include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <optional>
+#include <system_error>
 #include <thread>
 
 #define PELAGE_DOUBLE
@@ -83,10 +84,10 @@ struct MomentTable::State {
     FiberMaterial fiber{};
     std::uint32_t width = 0, height = 64, nodes = 0;
     std::vector<std::unique_ptr<Row>> rows;
-    std::vector<std::optional<std::array<Texel, 3>>> texels;  // row by row
+    std::vector<std::vector<std::optional<std::array<Texel, 3>>>> texels;  // by row; a row is empty until it is read
 
-    // At 90 degrees nothing enters the fibre and no path has a mean: the first row is the limit.
-    double cosineOf(std::uint32_t y) const { return y == 0 ? 1e-4 : static_cast<double>(y) / (height - 1.0); }
+    double axisOf(double cosine) const { return momentAxisTheta(fiberSection(fiber, cosine), fiber); }
+    double cosineOf(std::uint32_t y) const;
     const Row& row(std::uint32_t y);
     const std::array<Texel, 3>& at(std::uint32_t x, std::uint32_t y);
 };
@@ -104,8 +105,9 @@ MomentTable::MomentTable(double eta, double betaN) : state_(std::make_unique<Sta
     const double scale = 1.0 / r.inverseScale;
     s.width = scale > 0.1 ? 64 : (scale > 0.04 ? 128 : (scale > 0.015 ? 256 : 512));
     s.nodes = static_cast<std::uint32_t>(std::clamp(14.0 * r.inverseScale, 256.0, 8192.0));
+    s.height = s.width > 128 ? 96 : 64;
     s.rows.resize(s.height);
-    s.texels.resize(std::size_t{s.width} * s.height);
+    s.texels.resize(s.height);
 }
 MomentTable::~MomentTable() = default;
 MomentTable::MomentTable(MomentTable&&) noexcept = default;
@@ -116,6 +118,18 @@ std::uint32_t MomentTable::width() const {
 }
 std::uint32_t MomentTable::height() const {
     return state_->height;
+}
+
+// The cosine whose place on the axis is row y. At 90 degrees nothing enters the fibre and no path has a mean: the first
+// row is the limit.
+double MomentTable::State::cosineOf(std::uint32_t y) const {
+    const double wanted = static_cast<double>(y) / (height - 1.0);
+    double low = y == 0 ? 1e-6 : 0.0, high = y == 0 ? 1e-6 : 1.0;
+    for (int halvings = 0; halvings < 60 && low < high; ++halvings) {
+        const double middle = 0.5 * (low + high);
+        (axisOf(middle) < wanted ? low : high) = middle;
+    }
+    return high;
 }
 
 const Row& MomentTable::State::row(std::uint32_t y) {
@@ -158,7 +172,8 @@ const Row& MomentTable::State::row(std::uint32_t y) {
 }
 
 const std::array<MomentTable::Texel, 3>& MomentTable::State::at(std::uint32_t x, std::uint32_t y) {
-    std::optional<std::array<Texel, 3>>& cached = texels[std::size_t{y} * width + x];
+    if (texels[y].empty()) texels[y].resize(width);
+    std::optional<std::array<Texel, 3>>& cached = texels[y][x];
     if (cached) return *cached;
     const Row& source = row(y);
     const double phi = pi * static_cast<double>(x) / (width - 1.0);
@@ -184,7 +199,7 @@ MomentTable::Texel MomentTable::texel(std::uint32_t layer, std::uint32_t x, std:
 
 MomentTable::Sample MomentTable::sample(double cosThetaO, double phi) {
     const double x = std::abs(std::remainder(phi, 2.0 * pi)) / pi * (width() - 1.0);
-    const double y = std::clamp(cosThetaO, 0.0, 1.0) * (height() - 1.0);
+    const double y = std::clamp(state_->axisOf(std::clamp(cosThetaO, 0.0, 1.0)), 0.0, 1.0) * (height() - 1.0);
     const auto x0 = static_cast<std::uint32_t>(std::clamp(std::floor(x), 0.0, width() - 2.0));
     const auto y0 = static_cast<std::uint32_t>(std::clamp(std::floor(y), 0.0, height() - 2.0));
     Sample s{};
@@ -198,17 +213,22 @@ MomentTable::Sample MomentTable::sample(double cosThetaO, double phi) {
 }
 
 std::vector<std::uint16_t> MomentTable::halves() {
-    // Rows share nothing, so each thread takes its own.
-    const std::uint32_t threads = std::clamp(std::thread::hardware_concurrency(), 1U, 16U);
-    std::vector<std::thread> workers;
-    for (std::uint32_t first = 0; first < threads; ++first) {
-        workers.emplace_back([&, first] {
-            for (std::uint32_t y = first; y < height(); y += threads) {
-                for (std::uint32_t x = 0; x < width(); ++x) state_->at(x, y);
-            }
-        });
+    // Rows share nothing, so each thread takes the next. This one works too: it does all of it where no other starts.
+    std::atomic<std::uint32_t> next = 0;
+    const auto work = [&] {
+        for (std::uint32_t y = next++; y < height(); y = next++) {
+            for (std::uint32_t x = 0; x < width(); ++x) state_->at(x, y);
+        }
+    };
+    std::vector<std::jthread> workers;
+    const std::uint32_t others = std::clamp(std::thread::hardware_concurrency(), 1U, 16U) - 1;
+    try {
+        for (std::uint32_t i = 0; i < others; ++i) workers.emplace_back(work);
+    } catch (const std::system_error&) {
+        // No more threads to be had.
     }
-    for (std::thread& worker : workers) worker.join();
+    work();
+    workers.clear();
     std::vector<std::uint16_t> packed;
     packed.reserve(std::size_t{width()} * height() * layers * 4);
     for (std::uint32_t layer = 0; layer < layers; ++layer) {
@@ -222,9 +242,13 @@ std::vector<std::uint16_t> MomentTable::halves() {
 }
 
 std::string momentTableName(double eta, double betaN) {
-    char text[64];
-    std::snprintf(text, sizeof text, "moments:%.6g,%.6g", eta, betaN);
-    return text;
+    // to_chars, unlike printf, does not follow the host's decimal comma.
+    const auto number = [](double x) {
+        char text[32];
+        const auto end = std::to_chars(text, text + sizeof text, x, std::chars_format::general, 6);
+        return std::string(text, end.ptr);
+    };
+    return "moments:" + number(eta) + "," + number(betaN);
 }
 
 std::optional<MomentTable> momentTableOf(std::string_view name) {
@@ -232,9 +256,12 @@ std::optional<MomentTable> momentTableOf(std::string_view name) {
     const std::size_t comma = name.find(',');
     if (!name.starts_with(prefix) || comma == std::string_view::npos) return std::nullopt;
     double eta = 0, betaN = 0;
-    const auto first = std::from_chars(name.data() + prefix.size(), name.data() + comma, eta);
-    const auto second = std::from_chars(name.data() + comma + 1, name.data() + name.size(), betaN);
-    if (first.ec != std::errc() || second.ec != std::errc()) return std::nullopt;
+    const char *middle = name.data() + comma, *end = name.data() + name.size();
+    const auto first = std::from_chars(name.data() + prefix.size(), middle, eta);
+    const auto second = std::from_chars(middle + 1, end, betaN);
+    if (first.ec != std::errc() || first.ptr != middle || second.ec != std::errc() || second.ptr != end) {
+        return std::nullopt;
+    }
     return MomentTable(eta, betaN);
 }
 

@@ -30,7 +30,7 @@ public:
     MomentTable& operator=(MomentTable&&) noexcept;
 
     std::uint32_t width() const;   ///< 64 to 512, by betaN: the sharper the lobes, the more texels
-    std::uint32_t height() const;  ///< 64
+    std::uint32_t height() const;  ///< 64, or 96 with the two larger widths
 
     using Texel = std::array<float, 4>;  // rounded to half floats
     Texel texel(std::uint32_t layer, std::uint32_t x, std::uint32_t y);
