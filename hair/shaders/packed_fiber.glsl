@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A FiberMaterial in a storage buffer (PackedFiber of hair/src/scattering/packed.hpp), and the moment table as a texture.
+// A FiberMaterial in a storage buffer: PackedFiber of hair/src/scattering/packed.hpp.
 #ifndef PELAGE_PACKED_FIBER_GLSL
 #define PELAGE_PACKED_FIBER_GLSL
 #include "scattering/models.glsl"

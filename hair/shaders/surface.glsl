@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The point being shaded, from the varyings and the material's textures. Expects `material` (baseColor, strandIdAmp) and
-// the material textures to be declared.
+// The point being shaded, from the varyings and the material's textures. Expects `material` (baseColor, strandIdAmp)
+// and the material textures to be declared.
 #ifndef PELAGE_SURFACE_GLSL
 #define PELAGE_SURFACE_GLSL
 struct Surface {

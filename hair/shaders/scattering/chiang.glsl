@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Chiang et al. 2016, near field: the fibre at one offset h, with d'Eon's longitudinal lobe evaluated exactly (common
-// implementations use a truncated Bessel series and are up to 2 % dark). Not reciprocal: attenuation is taken at theta_o.
-// Without h it is the mean over h, by the midpoint rule in gamma; that is a yardstick, not a way to render.
+// implementations use a truncated Bessel series and are up to 2 % dark). Not reciprocal: attenuation is taken at
+// theta_o. Without h it is the mean over h, by the midpoint rule in gamma; that is a yardstick, not a way to render.
 #ifndef PELAGE_CHIANG_GLSL
 #define PELAGE_CHIANG_GLSL
 #include "attenuation.glsl"

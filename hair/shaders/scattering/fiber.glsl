@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // What every scattering model takes and gives: the directions in the frame of the fibre, the fibre, a look-up into its
-// tables, and one value for each lobe. Conventions: u is the unit tangent from root to tip; theta = asin(w.u), the angle
-// from the normal plane; phi = phi_i - phi_o; both directions point away from the fibre; wo is the view. S_p has the
-// integral A_p over the sphere of wi, so L_o = S E_perp.
+// tables, and one value for each lobe. Conventions: u is the unit tangent from root to tip; theta = asin(w.u), the
+// angle from the normal plane; phi = phi_i - phi_o; both directions point away from the fibre; wo is the view. S_p has
+// the integral A_p over the sphere of wi, so L_o = S E_perp.
 #ifndef PELAGE_FIBER_GLSL
 #define PELAGE_FIBER_GLSL
 #include "numerics.glsl"
@@ -77,8 +77,8 @@ FiberAngles fiberAngles(real3 u, real3 wi, real3 wo) {
     real c = dot(acrossO, acrossI), s = dot(t, cross(acrossO, acrossI));
     a.phi = atanFull(s, c);
     real large = max(abs(c), abs(s));  // squares of products of two small cosines would be zero
-    a.cosPhi = large > 0.0 ? clamp((c / large) * inversesqrt(square(c / large) + square(s / large)), real(-1.0), real(1.0))
-                           : real(1.0);
+    real unit = large > 0.0 ? c / large * inversesqrt(square(c / large) + square(s / large)) : real(1.0);
+    a.cosPhi = clamp(unit, real(-1.0), real(1.0));
     a.h = 0.0;
     a.cosGamma = 1.0;
     return a;

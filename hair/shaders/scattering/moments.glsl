@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// Ours: the far field of chiang.glsl from a small table per (eta, beta_N). The azimuthal part without absorption, N0, is
-// tabulated with exact Fresnel terms; so are mean m1 and variance m2 of the path that light of each lobe has gone inside
-// the fibre. Absorption by any colour is then the cumulant expansion of the mean of exp(-sigma length):
+// Ours: the far field of chiang.glsl from a small table per (eta, beta_N). The azimuthal part without absorption, N0,
+// is tabulated with exact Fresnel terms; so are mean m1 and variance m2 of the path that light of each lobe has gone
+// inside the fibre. Absorption by any colour is then the cumulant expansion of the mean of exp(-sigma length):
 //     N(sigma) = N0 exp(-sigma m1 + 1/2 sigma^2 m2 - ...),
 // cut after the second cumulant. The exponent is kept below -sigma times the shortest path, which is also what is right
 // for sigma -> infinity.
@@ -17,8 +17,8 @@ real momentAxisPhi(real phi) { return abs(phi) / pi; }
 // where the transmittance of the middle of a fibre is about a half.
 real momentRim(FiberSection s) { return s.cosine / (s.cosine + 0.21 * s.root); }
 
-// Two thirds of the rows lie evenly in cos(theta_o), the others in its rim function: for an index near 1 all that Fresnel's terms do
-// happens within a few thousandths of the cosine.
+// Two thirds of the rows lie evenly in cos(theta_o), the others in its rim function: for an index near 1 all that
+// Fresnel's terms do happens within a few thousandths of the cosine.
 real momentAxisTheta(FiberSection s, FiberMaterial m) {
     return 0.65 * s.cosine + 0.35 * (1.0 + 0.21 * m.eta) * momentRim(s);
 }
@@ -43,8 +43,8 @@ real3 absorb(real3 sigmaA, real mean, real variance, real shortest) {
 }
 
 // The residual is all paths of three segments and more: per offset T^3 / (1 + r (1 - T)) of what it is without
-// absorption, r = f / (1 - f). The paths along the rim are long, and two moments do not hold them. T is taken at the mean
-// segment, and H(x) = 1 / mean of 1 / (1 + r x) is a cubic through its values at 0, 1/3, 2/3 and 1.
+// absorption, r = f / (1 - f). The paths along the rim are long, and two moments do not hold them. T is taken at the
+// mean segment, and H(x) = 1 / mean of 1 / (1 + r x) is a cubic through its values at 0, 1/3, 2/3 and 1.
 real3 absorbResidual(real3 sigmaA, real4 rest) {
     real3 t = exp(-sigmaA * rest.x);
     real3 x = real3(3.0) * (real3(1.0) - t);

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: MIT
 // R, TT, TRT and glint under artists' controls over the exact lobes, after the ideas of Pekelis et al. 2015 (their
-// equations are not public). Widths and shifts are those of the FiberMaterial, which here may be set lobe by lobe; gains
-// and tints are applied by the caller. The glint is light taken out of TRT and gathered where the azimuth of TRT turns
-// back, the caustic of a smooth fibre, so it costs no energy: gain 1 moves half of TRT.
+// equations are not public). Widths and shifts are those of the FiberMaterial, which here may be set lobe by lobe;
+// gains and tints are applied by the caller. The glint is light taken out of TRT and gathered where the azimuth of TRT
+// turns back, the caustic of a smooth fibre, so it costs no energy: gain 1 moves half of TRT.
 #ifndef PELAGE_PXR_GLSL
 #define PELAGE_PXR_GLSL
 #include "chiang.glsl"
 #include "moments.glsl"
 
-// cos(gamma) of the offset at which the azimuth of TRT turns back: h_c^2 = (4 - eta'^2) / 3 (Marschner 2003, section 4.3),
-// written as cos^2 = (eta'^2 - 1) / 3 = (eta^2 - 1) / (3 cos^2(theta)), which keeps its digits for eta near 1. 1, the
-// middle of the fibre, where it does not turn back.
+// cos(gamma) of the offset at which the azimuth of TRT turns back: h_c^2 = (4 - eta'^2) / 3 (Marschner 2003, section
+// 4.3), written as cos^2 = (eta'^2 - 1) / 3 = (eta^2 - 1) / (3 cos^2(theta)), which keeps its digits for eta near 1. 1,
+// the middle of the fibre, where it does not turn back.
 real causticCosine(FiberSection s, FiberMaterial m) {
     return sqrt(min(m.etaExcess / max(3.0 * s.cosine * s.cosine, real(1e-12)), real(1.0)));
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Ours, without a table: the far field of chiang.glsl by segments of gamma. Inside a segment both the azimuth Phi and the
-// weight A cos(gamma) / 2 are taken as linear in gamma; the integral of (linear weight) x (logistic around a linear Phi)
-// is then exact, by the logistic's first and second antiderivatives. Narrow lobes are no harder than wide ones, where
-// sampling h would need a point per width of the logistic.
+// Ours, without a table: the far field of chiang.glsl by segments of gamma. Inside a segment both the azimuth Phi and
+// the weight A cos(gamma) / 2 are taken as linear in gamma; the integral of (linear weight) x (logistic around a linear
+// Phi) is then exact, by the logistic's first and second antiderivatives. Narrow lobes are no harder than wide ones,
+// where sampling h would need a point per width of the logistic.
 #ifndef PELAGE_SEGMENTS_GLSL
 #define PELAGE_SEGMENTS_GLSL
 #include "attenuation.glsl"
@@ -10,14 +10,21 @@
 const int segmentCount = 8;  // from gamma = 0 to pi/2; the other half is its mirror image
 // The ends of the segments and their sines and cosines: gamma = pi/2 (1.5 t - 0.5 t^2) at even steps of t, closer at
 // the rim, where Fresnel's reflectance climbs.
-const real segmentGamma[9] = {0, 0.28225246497095796, 0.53996123733574564, 0.77312631709436319, 0.98174770424681035, 1.1658253987930873, 1.3253594007331939, 1.4603497100671303, 1.5707963267948966};
-const real segmentSin[9] = {0, 0.27851968938505306, 0.51410274419322166, 0.69837624940897292, 0.83146961230254524, 0.91911385169005777, 0.97003125319454397, 0.99390697000235606, 1};
-const real segmentCos[9] = {1, 0.96043051941556579, 0.85772861000027212, 0.71573082528381859, 0.55557023301960229, 0.3939920400610481, 0.24298017990326398, 0.11022220729388318, 0};
+const real segmentGamma[9] = {
+    0, 0.28225246497095796, 0.53996123733574564, 0.77312631709436319, 0.98174770424681035, 1.1658253987930873,
+    1.3253594007331939, 1.4603497100671303, 1.5707963267948966};
+const real segmentSin[9] = {
+    0, 0.27851968938505306, 0.51410274419322166, 0.69837624940897292, 0.83146961230254524, 0.91911385169005777,
+    0.97003125319454397, 0.99390697000235606, 1};
+const real segmentCos[9] = {
+    1, 0.96043051941556579, 0.85772861000027212, 0.71573082528381859, 0.55557023301960229, 0.3939920400610481,
+    0.24298017990326398, 0.11022220729388318, 0};
 // 1 / sum of (step x mean of the cosines at its ends): the chords below the cosine lose this much of d(h).
 const real segmentNormal = 1.0048974584391095;
 
-// The trimmed logistic D at x, with P = integral of D and Q = integral of P from the start of the turn to -|y|, where y is
-// x within its turn: on that side both are small, and keep their digits in the tail. P(y) = 1 - P(-y), Q(y) = Q(-y) + y.
+// The trimmed logistic D at x, with P = integral of D and Q = integral of P from the start of the turn to -|y|, where y
+// is x within its turn: on that side both are small, and keep their digits in the tail. P(y) = 1 - P(-y), Q(y) = Q(-y)
+// + y.
 struct LogisticPoint {
     real x, turns, y, density, p, q;
 };

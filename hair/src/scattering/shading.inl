@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: MIT
 // The shared shading source as C++. The including file defines PELAGE_REAL (float or double), PELAGE_SHADING (a
-// namespace for it) and PELAGE_SCATTER (the name of the function it makes). float is compiled with single-precision literals (hair/CMakeLists.txt), so that no
-// expression is promoted to double on the way.
+// namespace for it) and PELAGE_SCATTER (the name of the function it makes). float is compiled with single-precision
+// literals (hair/CMakeLists.txt), so that no expression is promoted to double on the way.
 #include "resolve.hpp"
 
 #include <glm/glm.hpp>
-
 
 namespace pelage::hair {
 namespace PELAGE_SHADING {
