@@ -62,23 +62,27 @@ const bool usesMomentTable =
 #define MOMENT_TEXTURE sampler2DArray(momentTable, s_material)
 #include "moment_texture.glsl"
 
-FiberTable fetchMoments(FiberAngles a, FiberMaterial m) {
+MomentRow fetchRow(FiberMaterial m, float cosO) {
+    MomentRow row;
+    row.y = 0.0;
+    row.rest = vec4(0.0);
+    if (usesMomentTable) row = momentRow(m, cosO, lobeRES);
+    return row;
+}
+
+// Radiance per E_perp, with the artist's gains. Lobes that are off leave nothing behind.
+vec3 scatter(FiberAngles a, FiberMaterial m, MomentRow row, bool withTT) {
     FiberTable t;
     t.lobes = vec4(0.0);
     t.lengths = vec4(0.0);
     t.rest = vec4(0.0);
-    if (usesMomentTable) t = sampleMoments(a, m, lobeRES);
-    return t;
-}
-
-// Radiance per E_perp, with the artist's gains. Lobes that are off leave nothing behind.
-vec3 scatter(FiberAngles a, FiberMaterial m) {
-    FiberLobes s = scatterFiber(scatteringModel, asPublished, a, m, fetchMoments(a, m));
+    if (usesMomentTable) t = sampleMoments(a, row);
+    FiberLobes l = scatterFiber(scatteringModel, asPublished, a, m, t);
     vec3 sum = vec3(0.0);
-    if (lobeR) sum += material.gainR * s.R;
-    if (lobeTT) sum += material.gainTT * s.TT;
-    if (lobeTRT) sum += material.gainTRT * s.TRT;
-    if (lobeRES) sum += material.gainRES * s.RES;
+    if (lobeR) sum += material.gainR * l.R;
+    if (lobeTT && withTT) sum += material.gainTT * l.TT;
+    if (lobeTRT) sum += material.gainTRT * l.TRT;
+    if (lobeRES) sum += material.gainRES * l.RES;
     return sum;
 }
 

@@ -20,6 +20,7 @@ layout(location = 0) out vec4 o_color;  // scene-linear, premultiplied
 void main() {
     Surface s = fetchSurface();
     FiberMaterial m = fiberMaterial(s.color);
+    MomentRow row = fetchRow(m, length(cross(s.tangent, s.wo)));
     float h = scatteringModel == MODEL_CHIANG ? fragmentOffset(gl_FragCoord.xy, v_strand.x) : 0.0;
     vec3 radiance = vec3(0.0);
     vec3 ambient = frame.ambient.rgb;
@@ -31,7 +32,7 @@ void main() {
         FiberAngles a = fiberAngles(s.tangent, incident.direction, s.wo);
         a.h = h;
         a.cosGamma = sqrt(max(1.0 - h * h, 0.0));
-        radiance += scatter(a, m) * arriving;
+        radiance += scatter(a, m, row, true) * arriving;
         ambient += arriving * isotropic;
     }
     if (envOn) {
@@ -43,12 +44,7 @@ void main() {
         FiberAngles a = fiberAngles(s.tangent, s.normal, s.wo);
         a.h = h;
         a.cosGamma = sqrt(max(1.0 - h * h, 0.0));
-        FiberLobes l = scatterFiber(scatteringModel, asPublished, a, m, fetchMoments(a, m));
-        vec3 sum = vec3(0.0);
-        if (lobeR) sum += material.gainR * l.R;
-        if (lobeTRT) sum += material.gainTRT * l.TRT;
-        if (lobeRES) sum += material.gainRES * l.RES;
-        radiance += sum * environmentIrradiance(s.normal) * material.envScale;
+        radiance += scatter(a, m, row, false) * environmentIrradiance(s.normal) * material.envScale;
     }
     if (ambientOn) radiance += m.color * ambient * material.ambientScatter;
     o_color = finish(radiance, s);

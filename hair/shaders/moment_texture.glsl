@@ -4,14 +4,28 @@
 #define PELAGE_MOMENT_TEXTURE_GLSL
 #include "scattering/moments.glsl"
 
+// What of the table depends on the view alone: its row, and the residual, which has no azimuth. One for all lights.
+struct MomentRow {
+    float y;
+    vec4 rest;
+};
+
 // Texels lie on the ends of both axes.
-FiberTable sampleMoments(FiberAngles a, FiberMaterial m, bool residual) {
-    vec2 size = vec2(textureSize(MOMENT_TEXTURE, 0).xy);
-    vec2 at = (vec2(momentAxisPhi(a.phi), momentAxisTheta(fiberSection(m, a.cosO), m)) * (size - 1.0) + 0.5) / size;
+MomentRow momentRow(FiberMaterial m, float cosO, bool residual) {
+    float size = float(textureSize(MOMENT_TEXTURE, 0).y);
+    MomentRow row;
+    row.y = (momentAxisTheta(fiberSection(m, cosO), m) * (size - 1.0) + 0.5) / size;
+    row.rest = residual ? textureLod(MOMENT_TEXTURE, vec3(0.5, row.y, 2.0), 0.0) : vec4(0.0);
+    return row;
+}
+
+FiberTable sampleMoments(FiberAngles a, MomentRow row) {
+    float size = float(textureSize(MOMENT_TEXTURE, 0).x);
+    float x = (momentAxisPhi(a.phi) * (size - 1.0) + 0.5) / size;
     FiberTable t;
-    t.lobes = textureLod(MOMENT_TEXTURE, vec3(at, 0.0), 0.0);
-    t.lengths = textureLod(MOMENT_TEXTURE, vec3(at, 1.0), 0.0);
-    t.rest = residual ? textureLod(MOMENT_TEXTURE, vec3(at, 2.0), 0.0) : vec4(0.0);
+    t.lobes = textureLod(MOMENT_TEXTURE, vec3(x, row.y, 0.0), 0.0);
+    t.lengths = textureLod(MOMENT_TEXTURE, vec3(x, row.y, 1.0), 0.0);
+    t.rest = row.rest;
     return t;
 }
 #endif

@@ -42,7 +42,7 @@ void main() {
     for (int j = 0; j < steps; ++j) {
         a.phi = pi * (2.0 * (float(j) + 0.5) / float(steps) - 1.0);
         a.cosPhi = clamp(cos(a.phi), -1.0, 1.0);
-        FiberLobes s = scatterFiber(scatteringModel, asPublished, a, m, sampleMoments(a, m, true));
+        FiberLobes s = scatterFiber(scatteringModel, asPublished, a, m, sampleMoments(a, momentRow(m, a.cosO, true)));
         sum += (s.R.x + s.TT.x + s.TRT.x + s.RES.x) * a.cosI;
     }
     energies[gl_GlobalInvocationID.x] = sum * (2.0 * pi * pi) / float(steps * steps);

@@ -113,7 +113,7 @@ FiberAngles anglesOf(vec3 u, vec3 wi, vec3 wo, float h) {
 }
 
 FiberLobes bareAt(FiberAngles a, FiberMaterial m) {
-    return scatterFiberBare(scatteringModel, asPublished, a, m, sampleMoments(a, m, true));
+    return scatterFiberBare(scatteringModel, asPublished, a, m, sampleMoments(a, momentRow(m, a.cosO, true)));
 }
 
 void main() {
@@ -138,7 +138,7 @@ void main() {
             wi = broken(wi);
         }
         FiberAngles a = anglesOf(u, wi, wo, h);
-        FiberTable t = sampleMoments(a, m, true);
+        FiberTable t = sampleMoments(a, momentRow(m, a.cosO, true));
         FiberLobes bare = scatterFiberBare(scatteringModel, asPublished, a, m, t);
         FiberLobes guarded = scatterFiber(scatteringModel, asPublished, a, m, t);
         check(bare, guarded);
