@@ -220,6 +220,12 @@ TEST(Image, DecodesAndRefusesWithCodes) {
     poke(hollow, 18, std::uint32_t{16384});
     poke(hollow, 22, std::uint32_t{16384});
     expectFault(decodeImage(hollow, "x", true), "I004");
+    // A JPEG whose Huffman table has 258 codes, which stb_image would write past its 257 places.
+    std::vector<std::byte> table{std::byte{0xFF}, std::byte{0xD8}, std::byte{0xFF}, std::byte{0xC4}, std::byte{0xFF}};
+    table.resize(22);
+    table[20] = std::byte{0xFF};
+    table[21] = std::byte{0x03};
+    expectFault(decodeImage(table, "x", true), "I005");
 }
 
 TEST(Image, DamageNeverCrashes) {

@@ -30,6 +30,43 @@ namespace pelage::hair {
 
 using reading::fault;
 
+namespace {
+
+// False when a Huffman table of a JPEG promises more than 256 codes: Debian's stb_image would write past its table.
+// Walks the markers as stb_image does (fill bytes and junk between segments, zeros behind the end), scan data included:
+// inside it FF is followed by 00 or a restart marker.
+bool jpegTablesFit(std::span<const std::byte> bytes) {
+    const auto at = [&](std::size_t i) { return i < bytes.size() ? std::to_integer<unsigned>(bytes[i]) : 0U; };
+    std::size_t begin = 0;
+    while (at(begin) == 0xFF) ++begin;
+    if (begin == 0 || at(begin) != 0xD8) return true;  // no JPEG
+    for (std::size_t i = begin + 1; i < bytes.size();) {
+        if (at(i) != 0xFF) {
+            ++i;
+            continue;
+        }
+        while (at(i) == 0xFF) ++i;
+        const unsigned marker = at(i++);
+        if (marker == 0xD9) return true;
+        if (marker < 0xC0 || (marker >= 0xD0 && marker <= 0xD8)) continue;  // no segment
+        const std::size_t length = at(i) * 256 + at(i + 1);
+        if (marker == 0xC4) {
+            std::size_t table = i + 2;
+            for (std::size_t left = length < 2 ? 0 : length - 2; left > 0;) {
+                std::size_t codes = 0;
+                for (std::size_t k = 1; k <= 16; ++k) codes += at(table + k);
+                if (codes > 256) return false;
+                table += 17 + codes;
+                left = left > 17 + codes ? left - 17 - codes : 0;
+            }
+        }
+        i += length < 2 ? 2 : length;
+    }
+    return true;
+}
+
+}  // namespace
+
 Outcome<Image8> decodeImage(std::span<const std::byte> bytes, const std::string& name, bool srgb) {
     if (bytes.empty()) {
         return tl::unexpected(fault("I001", name, "the image has no bytes", "export the texture again"));
@@ -43,6 +80,10 @@ Outcome<Image8> decodeImage(std::span<const std::byte> bytes, const std::string&
     };
     if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
         return tl::unexpected(fault("I003", name, "the image file is larger than 2 GiB", "use a smaller texture"));
+    }
+    if (!jpegTablesFit(bytes)) {
+        return tl::unexpected(fault("I005", name, "a Huffman table of the JPEG has more than 256 codes",
+                                    "the texture is damaged: export it again"));
     }
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
     const int size = static_cast<int>(bytes.size());
