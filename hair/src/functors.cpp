@@ -2,6 +2,7 @@
 // Each functor is one function that makes its type: ports first, then what it computes.
 #include <pelage/hair/functors.hpp>
 
+#include "functor_ports.hpp"
 #include "functors_fiber.hpp"
 
 #include <algorithm>
@@ -16,13 +17,6 @@ using materials::FunctorOutputs;
 using materials::FunctorType;
 using materials::Value;
 using materials::ValueType;
-
-materials::Port port(std::string name, ValueType type) {
-    return {std::move(name), materials::Port::Kind::Value, type, {}, false};
-}
-materials::Port words(std::string name, std::vector<std::string> list) {
-    return {std::move(name), materials::Port::Kind::Value, ValueType::Enum, std::move(list), false};
-}
 
 // The integral of max(cos(theta_i - theta_r), 0)^p over the sphere at theta_r = 0 is
 // 2 pi sqrt(pi) Gamma((p + 2) / 2) / Gamma((p + 3) / 2): 4.64 for p = 10, 1.74 for p = 80. Its inverse makes the

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "functors_fiber.hpp"
 
+#include "functor_ports.hpp"
 #include "scattering/resolve.hpp"
 
 #include <algorithm>
@@ -14,13 +15,6 @@ using materials::FunctorOutputs;
 using materials::FunctorType;
 using materials::Value;
 using materials::ValueType;
-
-materials::Port port(std::string name, ValueType type) {
-    return {std::move(name), materials::Port::Kind::Value, type, {}, false};
-}
-materials::Port words(std::string name, std::vector<std::string> list) {
-    return {std::move(name), materials::Port::Kind::Value, ValueType::Enum, std::move(list), false};
-}
 
 Value float4(const std::array<double, 4>& x) {
     return {ValueType::Float4,

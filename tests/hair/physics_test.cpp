@@ -16,43 +16,26 @@ constexpr float radians(float degrees) {
     return degrees * std::numbers::pi_v<float> / 180.0F;
 }
 
-// A fence of parallel cards in the plane z = 0, strand direction u = +x (root at -x), seen edge-on by nothing: normals
-// +z.
-std::shared_ptr<const hair::Geometry> fence() {
-    auto made = std::make_shared<hair::Geometry>();
-    made->name = "fence";
-    for (const float x : {-1.0F, 1.0F}) {
-        for (const float y : {-1.0F, 1.0F}) {
-            made->vertices.push_back({.position = {x, y, 0},
-                                      .normal = {0, 0, 1},
-                                      .tangent = {1, 0, 0},
-                                      .uv = {0.5F + 0.5F * y, 0.5F + 0.5F * x},
-                                      .along = 0.5F + 0.5F * x});
-        }
-    }
-    made->indices = {0, 1, 2, 2, 1, 3};
-    made->strandCount = 1;
-    made->updateBounds();
-    return made;
-}
+const std::vector<std::pair<std::string, std::string>> onlyR = {{"blending.mode", "opaque"},
+                                                                {"scattering.enableTT", "false"},
+                                                                {"scattering.enableTRT", "false"},
+                                                                {"scattering.longitudinalRoughness", "0.05"},
+                                                                {"scattering.enableResidual", "false"},
+                                                                {"scattering.cuticleTilt", "-8"},
+                                                                {"shadowing.mode", "off"},
+                                                                {"environment.enable", "false"},
+                                                                {"globalScattering.mode", "off"}};
 
-const std::vector<std::pair<std::string, std::string>> onlyR = {
-    {"blending.mode", "opaque"},       {"scattering.enableTT", "false"},
-    {"scattering.enableTRT", "false"}, {"scattering.longitudinalRoughness", "0.05"},
-    {"scattering.enableResidual", "false"},
-    {"scattering.cuticleTilt", "-8"},  {"shadowing.mode", "off"},
-    {"environment.enable", "false"},   {"globalScattering.mode", "off"}};
-
-// Radiance of the fence in the direction theta_o (towards +x, the tip, when positive), lit from straight above it.
+// Radiance of the card in the direction theta_o (towards +x, the tip, when positive), lit from straight above it.
 double radianceAt(hair::Renderer& renderer, const std::vector<std::pair<std::string, std::string>>& values,
                   float thetaO) {
     hair::Scene scene;
-    scene.objects.push_back({.name = "fence", .geometry = fence(), .material = material("brown", values)});
+    scene.objects.push_back({.name = "card", .geometry = card(), .material = material("brown", values)});
     scene.environment = hair::Environment::none();
     scene.lights = {{.direction = {0, 0, -1}, .castsShadow = false}};
     scene.camera = {.eye = glm::vec3(std::sin(thetaO), 0, std::cos(thetaO)) * 40.0F,
                     .target = {0, 0, 0},
-                    .verticalFov = 0.01F,  // nearly parallel, and inside the fence
+                    .verticalFov = 0.01F,  // nearly parallel, and inside the card
                     .nearPlane = 10,
                     .farPlane = 100};
     const hair::Picture picture = render(renderer, scene, 8);

@@ -68,6 +68,25 @@ std::shared_ptr<const hair::Geometry> head() {
     return made;
 }
 
+std::shared_ptr<const hair::Geometry> card(const std::vector<glm::vec3>& tangents) {
+    auto made = std::make_shared<hair::Geometry>();
+    made->name = "card";
+    std::size_t corner = 0;
+    for (const float x : {-1.0F, 1.0F}) {
+        for (const float y : {-1.0F, 1.0F}) {
+            made->vertices.push_back({.position = {x, y, 0},
+                                      .normal = {0, 0, 1},
+                                      .tangent = tangents[corner++ % tangents.size()],
+                                      .uv = {0.5F + 0.5F * y, 0.5F + 0.5F * x},
+                                      .along = 0.5F + 0.5F * x});
+        }
+    }
+    made->indices = {0, 1, 2, 2, 1, 3};
+    made->strandCount = 1;
+    made->updateBounds();
+    return made;
+}
+
 hair::Scene portrait(const std::shared_ptr<const hair::Geometry>& hairGeometry, materials::Material hairMaterial) {
     hair::Scene scene;
     scene.objects.push_back({.name = "head", .geometry = head(), .material = material("skin")});

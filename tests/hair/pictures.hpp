@@ -24,6 +24,9 @@ std::shared_ptr<const hair::Geometry> strands();  // a wavy groom of 3,000 stran
 std::shared_ptr<const hair::Geometry> cards();    // baked from it
 std::shared_ptr<const hair::Geometry> head();
 
+/// One card of 2 m in the plane z = 0, normal +z, root at -x; its corners take turns at the tangents.
+std::shared_ptr<const hair::Geometry> card(const std::vector<glm::vec3>& tangents = {{1, 0, 0}});
+
 /// Head and hair, portrait lights, studio environment, framed from the front and a little to the side.
 hair::Scene portrait(const std::shared_ptr<const hair::Geometry>& hair, materials::Material hairMaterial);
 

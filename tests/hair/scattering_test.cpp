@@ -24,30 +24,10 @@ protected:
     }
 };
 
-// One card in the plane z = 0 whose strands run along +x, root at -x.
-std::shared_ptr<const hair::Geometry> card(const std::vector<glm::vec3>& tangents) {
-    auto made = std::make_shared<hair::Geometry>();
-    made->name = "card";
-    std::size_t corner = 0;
-    for (const float x : {-1.0F, 1.0F}) {
-        for (const float y : {-1.0F, 1.0F}) {
-            made->vertices.push_back({.position = {x, y, 0},
-                                      .normal = {0, 0, 1},
-                                      .tangent = tangents[corner++ % tangents.size()],
-                                      .uv = {0.5F + 0.5F * y, 0.5F + 0.5F * x},
-                                      .along = 0.5F + 0.5F * x});
-        }
-    }
-    made->indices = {0, 1, 2, 2, 1, 3};
-    made->strandCount = 1;
-    made->updateBounds();
-    return made;
-}
-
 // A directional light in the direction (theta_i, phi) of the card's frame, the eye at (theta_o, 0).
 hair::Scene sceneOf(const materials::Material& material, double thetaI, double phi, double thetaO) {
     hair::Scene scene;
-    scene.objects.push_back({.name = "card", .geometry = card({{1, 0, 0}}), .material = material});
+    scene.objects.push_back({.name = "card", .geometry = card(), .material = material});
     scene.environment = hair::Environment::none();
     const glm::dvec3 wi(std::sin(thetaI), std::cos(thetaI) * std::sin(phi), std::cos(thetaI) * std::cos(phi));
     scene.lights = {{.direction = -glm::vec3(wi), .intensity = 1, .castsShadow = false}};

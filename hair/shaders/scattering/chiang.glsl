@@ -43,11 +43,6 @@ FiberLobes scatterChiang(FiberAngles a, FiberMaterial m, FiberTable, bool) {
             cosGamma = next;
         }
     }
-    real4 along = longitudinals(a, m);
-    n.R *= along.x;
-    n.TT *= along.y;
-    n.TRT *= along.z;
-    n.RES *= along.w;
-    return n;
+    return alongFiber(n, longitudinals(a, m));
 }
 #endif

@@ -100,6 +100,15 @@ real4 longitudinals(FiberAngles a, FiberMaterial m) {
     return m.norm * scaledBesselI0(a.cosI * cosO * m.inverseVariance, exponent);
 }
 
+// S_p of A_p N_p.
+FiberLobes alongFiber(FiberLobes n, real4 m) {
+    n.R *= m.x;
+    n.TT *= m.y;
+    n.TRT *= m.z;
+    n.RES *= m.w;
+    return n;
+}
+
 // Logistic of Chiang 2016 (8), trimmed to one turn and repeated.
 real trimmedLogistic(real x, FiberMaterial m) {
     real e = exp(-abs(wrapAngle(x)) * m.inverseScale);

@@ -67,12 +67,6 @@ FiberLobes azimuthMoments(FiberAngles a, FiberMaterial m, FiberTable table) {
 }
 
 FiberLobes scatterMoments(FiberAngles a, FiberMaterial m, FiberTable table, bool) {
-    FiberLobes n = azimuthMoments(a, m, table);
-    real4 along = longitudinals(a, m);
-    n.R *= along.x;
-    n.TT *= along.y;
-    n.TRT *= along.z;
-    n.RES *= along.w;
-    return n;
+    return alongFiber(azimuthMoments(a, m, table), longitudinals(a, m));
 }
 #endif

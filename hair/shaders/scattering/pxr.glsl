@@ -23,11 +23,7 @@ FiberLobes scatterPxr(FiberAngles a, FiberMaterial m, FiberTable table, bool) {
     } else {
         n = azimuthMoments(a, m, table);
     }
-    real4 along = longitudinals(a, m);
-    n.R *= along.x;
-    n.TT *= along.y;
-    n.RES *= along.w;
-    real3 trt = n.TRT * along.z;
+    n = alongFiber(n, longitudinals(a, m));
     real share = m.glint.x / (1.0 + m.glint.x);
     if (share > 0.0) {
         // Two logistics around +-phi_c, of TT's sharp longitudinal width, with the light TRT has over all azimuths: its
@@ -44,9 +40,8 @@ FiberLobes scatterPxr(FiberAngles a, FiberMaterial m, FiberTable table, bool) {
         real azimuth = 0.5 * (trimmedLogistic(a.phi - caustic, g) + trimmedLogistic(a.phi + caustic, g));
         FiberLobes light = attenuation(fresnelExact(m.eta, m.etaExcess, s.cosine * cosGamma), m.sigmaA,
                                        segmentLength(s, cosGammaT));
-        trt = (1.0 - share) * trt + share * light.TRT * azimuth * longitudinals(a, g).y;
+        n.TRT = (1.0 - share) * n.TRT + share * light.TRT * azimuth * longitudinals(a, g).y;
     }
-    n.TRT = trt;
     return n;
 }
 #endif

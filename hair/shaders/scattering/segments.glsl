@@ -111,11 +111,7 @@ FiberLobes scatterSegments(FiberAngles a, FiberMaterial m, FiberTable, bool) {
         }
         before = now;
     }
-    real4 along = longitudinals(a, m);
-    n.R *= along.x;
-    n.TT *= along.y;
-    n.TRT *= along.z;
-    n.RES *= along.w * (0.5 / pi);
-    return n;
+    n.RES *= 0.5 / pi;
+    return alongFiber(n, longitudinals(a, m));
 }
 #endif
