@@ -127,6 +127,14 @@ void main() {
     float slope = sqrt(m.inverseVariance.y) + narrow + 4.0;
     bool ordinary = (scatteringModel != MODEL_PXR || m.glint.y <= 20.0) &&
                     m.betaM >= 0.2 && m.betaN >= 0.2 && m.eta >= 1.2 && m.eta <= 2.0 && m.sigmaA.x <= 4.0 && abs(m.alpha) <= 0.1;
+    if (nonsense) {
+        // A material that is no material: vectors alone are mended by fiberAngles() before a model sees them.
+        float kind = next(), zero = next() * 0.0;
+        if (kind < 0.2) m.inverseVariance *= zero / zero;
+        else if (kind < 0.4) m.sigmaA = vec3(zero / zero);
+        else if (kind < 0.6) m.norm = vec4(1.0) / zero;
+        else if (kind < 0.7) m.color = vec3(-1.0, zero / zero, 1.0 / zero);
+    }
     for (int i = 0; i < points; ++i) {
         vec3 u = direction(2.0 * next() - 1.0, 6.2831853 * next());
         vec3 wo = pick(u, vec3(0.0, 1.0, 0.0));
