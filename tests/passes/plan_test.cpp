@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the linker makes of a good tree: order, versions, sizes, load and store, lifetimes, shared memory.
+// What the linker makes of a good tree: order, versions, sizes, load and store, lifetimes, places in the heap.
 #include "tree_text.hpp"
 
 #include <gtest/gtest.h>
@@ -150,10 +150,10 @@ TEST(Plan, LifetimesAndUsage) {
               rhi::TextureUsage::StorageBinding | rhi::TextureUsage::TextureBinding);
 }
 
-TEST(Plan, ImagesOfOneShapeShareATextureWhenTheirLivesDoNotOverlap) {
-    // A chain of equal images: 1 -> 2 -> 3 -> 4; the third may lie where the first was.
+// A chain of equal images, 0 -> 1 -> 2 -> 3, each read by the next pass only.
+std::string chain(int count) {
     std::string attachments, passes, before = "host.In";
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < count; ++i) {
         const std::string n = std::to_string(i);
         attachments +=
             (i ? "," : "") + std::string("\"A") + n + R"(": { "format": "RGBA16Float", "size": { "frame": 1 } })";
@@ -164,18 +164,41 @@ TEST(Plan, ImagesOfOneShapeShareATextureWhenTheirLivesDoNotOverlap) {
                   before + R"(", "out": "att.A)" + n + "\" } }";
         before = "P" + n + ".out";
     }
-    const std::string text =
-        R"({ "format": "pelage.passtree/1", "name": "Chain", "imports": { "In": { "kind": "image", "access": "read" } },
+    return R"({ "format": "pelage.passtree/1", "name": "Chain", "imports": { "In": { "kind": "image", "access": "read" } },
         "attachments": {)" +
-        attachments + R"(}, "passes": [)" + passes + R"(], "exports": { "Out": { "from": "P3.out" } } })";
-    HostDescription lent{.extent = {16, 16, 1}};
-    lent.imports["In"] = {true, rhi::TextureFormat::RGBA16Float, {16, 16, 1}, 1};
-    const Plan made = plan(text, lent);
-    EXPECT_EQ(resource(made, "att.A0")->allocation, resource(made, "att.A2")->allocation);
-    EXPECT_NE(resource(made, "att.A0")->allocation, resource(made, "att.A1")->allocation);
-    EXPECT_NE(resource(made, "att.A3")->allocation, resource(made, "att.A1")->allocation) << "an export has its own";
-    EXPECT_EQ(made.allocations, 3U);
-    EXPECT_EQ(made.allocatedBytes, 3ULL * 16 * 16 * 8);
+           attachments + R"(}, "passes": [)" + passes + R"(], "exports": { "Out": { "from": ")" + before + "\" } } }";
+}
+
+HostDescription chainHost() {
+    HostDescription lent{.extent = {256, 256, 1}};
+    lent.imports["In"] = {true, rhi::TextureFormat::RGBA16Float, {256, 256, 1}, 1};
+    return lent;
+}
+
+TEST(Plan, ImagesShareBytesOfTheHeapWhenTheirLivesDoNotMeet) {
+    const Plan made = plan(chain(4), chainHost());
+    constexpr std::uint64_t one = 256ULL * 256 * 8;
+    EXPECT_EQ(resource(made, "att.A0")->heapOffset, resource(made, "att.A2")->heapOffset);
+    EXPECT_NE(resource(made, "att.A0")->heapOffset, resource(made, "att.A1")->heapOffset);
+    EXPECT_NE(resource(made, "att.A3")->heapOffset, resource(made, "att.A2")->heapOffset);
+    EXPECT_EQ(made.naiveBytes, 4 * one);
+    EXPECT_EQ(made.heapBytes, 2 * one);
+    EXPECT_EQ(made.peakBytes, 2 * one);
+    EXPECT_EQ(resource(made, "host.In")->heapOffset, notPlaced) << "what the host lends is where it is";
+}
+
+TEST(Plan, SizesAndAlignmentsComeFromTheHost) {
+    HostDescription lent = chainHost();
+    lent.memory = [](const PlanResource& image) {
+        return MemoryNeed{image.name == "att.A1" ? 100U : 70U, image.name == "att.A1" ? 1U : 64U};
+    };
+    const Plan made = plan(chain(2), lent);
+    EXPECT_EQ(resource(made, "att.A1")->heapOffset, 0U) << "the largest is placed first";
+    EXPECT_EQ(resource(made, "att.A0")->heapOffset, 128U) << "behind it, at its own alignment";
+    EXPECT_EQ(made.heapBytes, 198U);
+    EXPECT_EQ(made.naiveBytes, 170U);
+    lent.memory = {};
+    EXPECT_EQ(plan(chain(1), lent).heapBytes % 65536, 0U);
 }
 
 TEST(Plan, ReaderOfAnOldVersionRunsBeforeTheChange) {
