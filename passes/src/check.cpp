@@ -76,9 +76,13 @@ private:
         if (isClass && !pass.shader.file.empty())
             reporter_.error(pass.shader.place, "P024", title + " has a \"shader\", but its class records it",
                             "remove it");
-        if (!pass.dispatchLike.empty() && !pass.slot(pass.dispatchLike)) {
-            reporter_.error(pass.dispatchPlace, "P014", title + " has no slot '" + pass.dispatchLike + "'",
-                            didYouMean(pass.dispatchLike, pass.slotNames()));
+        dispatchSlot(pass, pass.dispatchLike, pass.dispatchPlace);
+        if (const SlotDeclaration* slot = dispatchSlot(pass, pass.dispatchIndirect, pass.indirectPlace);
+            slot && slot->use != SlotUse::Indirect) {
+            reporter_.error(pass.indirectPlace, "P023",
+                            "slot '" + pass.name + "." + slot->name + "' is " + std::string(word(slot->use)) +
+                                "; \"dispatchIndirect\" needs one used as indirect",
+                            R"(write "as": "indirect")");
         }
         for (const OrderedAfter& after : pass.after) {
             if (!tree_.pass(after.pass)) {
@@ -90,6 +94,15 @@ private:
         for (const ParameterDeclaration& parameter : pass.parameters) settingName(parameter.value);
     }
 
+    const SlotDeclaration* dispatchSlot(const PassDeclaration& pass, const std::string& name, Place place) {
+        const SlotDeclaration* slot = name.empty() ? nullptr : pass.slot(name);
+        if (!slot && !name.empty()) {
+            reporter_.error(place, "P014", "pass '" + pass.name + "' has no slot '" + name + "'",
+                            didYouMean(name, pass.slotNames()));
+        }
+        return slot;
+    }
+
     void slotWords(const PassDeclaration& pass, const SlotDeclaration& slot) {
         const std::string title = "slot '" + pass.name + "." + slot.name + "'";
         const std::string use(word(slot.use));
@@ -97,7 +110,7 @@ private:
         const bool target = slot.use == SlotUse::Color || slot.use == SlotUse::Depth;
         const bool isClass = !pass.passClass.empty();
         // What a class records is known when the tree is compiled.
-        if (!isClass && !fits(pass.kind, slot.use, false)) {
+        if (!isClass && !fits(pass.kind, slot.use)) {
             reporter_.error(slot.place, "P023",
                             title + " is of a use that a " + std::string(word(pass.kind)) + " pass cannot have");
             return;
@@ -299,7 +312,7 @@ std::string_view word(PassKind kind) {
     return words[static_cast<std::size_t>(kind)];
 }
 
-bool fits(PassKind kind, SlotUse use, bool classes) {
+bool fits(PassKind kind, SlotUse use) {
     const bool draws = kind == PassKind::Raster || kind == PassKind::Fullscreen;
     switch (use) {
         case SlotUse::Color:
@@ -312,7 +325,7 @@ bool fits(PassKind kind, SlotUse use, bool classes) {
         case SlotUse::Vertex:
             return kind == PassKind::Raster;
         case SlotUse::Indirect:
-            return kind == PassKind::Raster || (kind == PassKind::Compute && classes);
+            return kind == PassKind::Raster || kind == PassKind::Compute;
         case SlotUse::Copy:
             return kind == PassKind::Copy;
     }

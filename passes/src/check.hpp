@@ -17,7 +17,7 @@ std::optional<std::uint32_t> numberOfWord(std::string_view word);
 std::string_view word(SlotUse use);
 std::string_view word(PassKind kind);
 /// Whether a pass of this kind can have a slot of this use.
-bool fits(PassKind kind, SlotUse use, bool classes);
+bool fits(PassKind kind, SlotUse use);
 /// Whether the slot takes a buffer, whatever is connected to it; storage and copy take either.
 bool isBufferUse(SlotUse use);
 

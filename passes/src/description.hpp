@@ -180,8 +180,9 @@ struct PassDeclaration {
     std::vector<ParameterDeclaration> parameters = {};
     std::uint32_t viewIndex = none;
     std::uint32_t dispatch[3] = {1, 1, 1}, threads[3] = {8, 8, 1};
-    std::string dispatchLike = {};
-    Place place = {}, namePlace = {}, viewPlace = {}, drawListPlace = {}, dispatchPlace = {}, classPlace = {};
+    std::string dispatchLike = {}, dispatchIndirect = {};
+    Place place = {}, namePlace = {}, viewPlace = {}, drawListPlace = {}, dispatchPlace = {}, indirectPlace = {},
+          classPlace = {};
 
     const SlotDeclaration* slot(std::string_view word) const;
     std::vector<std::string> slotNames() const;

@@ -18,8 +18,31 @@ rhi::TextureDescriptor descriptorOf(const PlanResource& image) {
             .usage = image.usage};
 }
 
+// A device may keep some format out of the heap's kind of memory; such an image has its own.
+rhi::Result<rhi::Texture> makeTexture(const rhi::Device& device, const PlanResource& image,
+                                      const rhi::TransientHeap& heap) {
+    rhi::TextureDescriptor descriptor = descriptorOf(image);
+    if (heap) {
+        descriptor.heap = heap;
+        descriptor.heapOffset = image.heapOffset;
+        device.pushErrorScope();
+        auto placed = device.createTexture(descriptor);
+        device.popErrorScope();
+        if (placed || placed.error().code != rhi::ErrorCode::FormatUnsupported) return placed;
+        descriptor.heap = {};
+        descriptor.heapOffset = 0;
+    }
+    return device.createTexture(descriptor);
+}
+
 // The images and buffers that the plan creates. Histories are made by makeHistories().
 rhi::Result<void> makeResources(Graph::State& state) {
+    rhi::TransientHeap heap;
+    if (state.plan.heapBytes > 0) {
+        auto made = state.device.createTransientHeap({.label = "transient images", .size = state.plan.heapBytes});
+        if (!made) return tl::unexpected(std::move(made.error()));
+        heap = std::move(*made);
+    }
     for (std::size_t i = 0; i < state.plan.resources.size(); ++i) {
         const PlanResource& resource = state.plan.resources[i];
         if (resource.kind == PlanResource::Kind::Constant) {
@@ -34,7 +57,7 @@ rhi::Result<void> makeResources(Graph::State& state) {
             state.buffers[i] = std::move(*made);
             continue;
         }
-        auto made = state.device.createTexture(descriptorOf(resource));
+        auto made = makeTexture(state.device, resource, heap);
         if (!made) return tl::unexpected(std::move(made.error()));
         state.textures[i] = std::move(*made);
     }
@@ -81,6 +104,12 @@ Checked<void> Graph::build(const PassTree& tree, const HostDescription& host) {
         asked.supports = [device = descriptor_.device](rhi::TextureFormat format, rhi::TextureUsage usage,
                                                        std::uint32_t samples) {
             return device.supports(format, usage, samples);
+        };
+    }
+    if (!asked.memory) {
+        asked.memory = [device = descriptor_.device](const PlanResource& image) {
+            const auto need = device.memoryRequirements(descriptorOf(image));
+            return need ? MemoryNeed{need->size, need->alignment} : MemoryNeed{image.bytes, 1};
         };
     }
     if (asked.classes.empty()) asked.classes = descriptor_.classes.infos();

@@ -207,7 +207,12 @@ private:
             encoder_.beginComputePass({.label = pass.name, .timestampWrites = timestamps(own.queries.first)});
         recording.setPipeline(own.compute);
         if (group) recording.setBindGroup(1, group);
-        recording.dispatchWorkgroups(pass.dispatch[0], pass.dispatch[1], pass.dispatch[2]);
+        const std::uint32_t counts = pass.indirect < pass.slots.size() ? pass.slots[pass.indirect].resource : ~0U;
+        if (counts != ~0U) {
+            recording.dispatchWorkgroupsIndirect(state_.buffers[counts]);
+        } else if (pass.indirect == ~0U) {
+            recording.dispatchWorkgroups(pass.dispatch[0], pass.dispatch[1], pass.dispatch[2]);
+        }
         recording.end();
         own.draws += 1;
         return {};

@@ -59,6 +59,8 @@ private:
         made.slots.reserve(linked.slotCount);
         for (const LinkedSlot& linkedSlot : linker_.slotsOf(linked)) {
             ++linker_.visits;
+            if (!says.dispatchIndirect.empty() && linkedSlot.says->name == says.dispatchIndirect)
+                made.indirect = static_cast<std::uint32_t>(made.slots.size());
             made.slots.push_back(slot(linkedSlot));
             const PlanSlot& own = made.slots.back();
             if (own.resource == none) continue;

@@ -53,7 +53,7 @@ void Linker::findClasses() {
         bool targets = false;
         for (const SlotDeclaration& slot : says.slots) {
             targets = targets || slot.use == SlotUse::Color || slot.use == SlotUse::Depth;
-            if (fits(pass.kind, slot.use, true)) continue;
+            if (fits(pass.kind, slot.use)) continue;
             reporter.error(slot.place, "P023",
                            "slot '" + says.name + "." + slot.name + "' is of a use that a " +
                                std::string(word(pass.kind)) + " pass, which the class '" + says.passClass +

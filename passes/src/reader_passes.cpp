@@ -176,9 +176,17 @@ private:
         readTriple("threads", pass_.threads);
         pass_.dispatchLike = wordOf(value_, "dispatchLike");
         pass_.dispatchPlace = placeOf(value_, "dispatchLike");
-        if (value_.find("dispatch") && value_.find("dispatchLike")) {
-            reporter_.error(pass_.dispatchPlace, "P028", title() + " has both \"dispatch\" and \"dispatchLike\"",
-                            "remove one");
+        pass_.dispatchIndirect = wordOf(value_, "dispatchIndirect");
+        pass_.indirectPlace = placeOf(value_, "dispatchIndirect");
+        const char* before = nullptr;
+        for (const char* key : {"dispatch", "dispatchLike", "dispatchIndirect"}) {
+            const Value* found = value_.find(key);
+            if (!found) continue;
+            if (before) {
+                reporter_.error(found->place, "P028", title() + " has both \"" + before + "\" and \"" + key + "\"",
+                                "remove one");
+            }
+            before = key;
         }
     }
 

@@ -183,6 +183,7 @@ struct PlanPass {
     std::map<std::string, double> constants = {};  // specialization constants of a fullscreen or compute shader
     std::vector<PlanParameter> parameters = {};    // of a class: all that it declares, in that order
     std::uint32_t dispatch[3] = {1, 1, 1};         // Compute: workgroups
+    std::uint32_t indirect = ~0U;                  // Compute: the slot whose buffer gives them instead; ~0: none
 };
 
 struct Plan {
