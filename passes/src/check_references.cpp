@@ -160,7 +160,7 @@ private:
             reporter_.error(reference.place, "P037",
                             "'" + reference.text() + "' is " + (buffer ? "a buffer" : "an image") + "; " + title +
                                 " is " + std::string(word(slot.use)));
-        } else if (!buffer && slot.clearIsZero) {
+        } else if (either && !buffer && slot.clearIsZero) {
             reporter_.error(
                 slot.clearPlace, "P037",
                 "\"clear\": 0 is for buffers; " + title + " is connected to the image '" + reference.text() + "'",

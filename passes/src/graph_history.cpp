@@ -12,6 +12,13 @@ bool sameShape(const PlanResource& a, const PlanResource& b) {
            a.bytes == b.bytes && (a.partner == ~0U) == (b.partner == ~0U);
 }
 
+const History* sameIn(const Graph::State& state, const PlanResource& resource) {
+    for (const History& each : state.histories) {
+        if (sameShape(state.plan.resources[each.last], resource)) return &each;
+    }
+    return nullptr;
+}
+
 rhi::Result<void> makeOne(Graph::State& state, History& history, std::size_t turn) {
     const PlanResource& resource = state.plan.resources[history.last];
     const std::string label = resource.name + (turn == 0 ? " (even frames)" : " (odd frames)");
@@ -62,15 +69,11 @@ rhi::Result<void> makeHistories(Graph::State& state, const Graph::State* before)
         const PlanResource& resource = state.plan.resources[i];
         if (resource.kind != PlanResource::Kind::History) continue;
         History made{.last = i, .current = resource.partner};
-        const History* old = nullptr;
-        for (const History& each : before ? before->histories : std::vector<History>{}) {
-            if (sameShape(before->plan.resources[each.last], resource)) old = &each;
-        }
-        if (old) {
-            const std::uint32_t last = made.last, current = made.current;
-            made = *old;
-            made.last = last;
-            made.current = current;
+        if (const History* old = before ? sameIn(*before, resource) : nullptr) {
+            made.turn = old->turn;
+            made.begun = old->begun;
+            made.textures = old->textures;
+            made.buffers = old->buffers;
         } else {
             for (std::size_t turn = 0; turn < (made.current == ~0U ? 1U : 2U); ++turn) {
                 if (auto one = makeOne(state, made, turn); !one) return one;
