@@ -201,6 +201,76 @@ TEST(Plan, SizesAndAlignmentsComeFromTheHost) {
     EXPECT_EQ(plan(chain(1), lent).heapBytes % 65536, 0U);
 }
 
+TEST(Plan, WhoIsReadByTheNextFrameIsNotCulled) {
+    // Nobody in this frame wants Accum: only the next one does, through its history.
+    std::string text = edited(moreGrammar(), R"("last":  { "access": "read", "as": "sampled", "bind": "u_last" },)", "");
+    text = edited(text, R"("last": "history.Accum", )", "");
+    text = edited(text, R"("passes": [)", R"("passes": [
+        { "name": "Show", "kind": "fullscreen", "shader": "show.frag",
+          "slots": { "last": { "access": "read", "as": "sampled", "bind": "u_last" },
+                     "color": { "access": "write", "as": "color" } },
+          "connect": { "last": "history.Accum", "color": "att.Shown" } },)");
+    text = edited(text, R"("attachments": {)", R"("attachments": { "Shown": { "format": "RGBA8Unorm", "size": { "frame": 1 } },)");
+    text = edited(text, R"("Color": { "from": "Blend.color" })", R"("Color": { "from": "Show.color" })");
+    const Plan made = plan(text, moreHost());
+    EXPECT_EQ(passNames(made), (Names{"Show", "Count", "Move", "Keep", "Draw", "Blend"})) << "and need not be first";
+    const PlanResource* last = resource(made, "history.Accum");
+    const PlanResource* accum = resource(made, "att.Accum");
+    ASSERT_TRUE(last && accum);
+    EXPECT_EQ(last->kind, PlanResource::Kind::History);
+    EXPECT_EQ(&made.resources[last->partner], accum);
+    EXPECT_EQ(&made.resources[accum->partner], last);
+    EXPECT_EQ(last->historyClear, (rhi::Color{0.25, 0, 0, 1}));
+    EXPECT_EQ(last->usage, accum->usage) << "they take turns";
+    EXPECT_EQ(slot(made, "Blend", "color")->store, rhi::StoreOp::Store);
+}
+
+TEST(Plan, BuffersHaveTheBytesOfTheirSetting) {
+    HostDescription lent = moreHost();
+    lent.settings["strands"] = whole(33);
+    const Plan made = plan(moreGrammar(), lent);
+    EXPECT_EQ(resource(made, "att.Points")->bytes, 33U * 16);
+    EXPECT_EQ(resource(made, "att.Args")->bytes, 16U) << "12, rounded up";
+    EXPECT_EQ(resource(made, "att.Heads")->bytes, 64U * 48 * 4);
+    EXPECT_EQ(resource(made, "history.Points")->bytes, 33U * 16);
+    using Usage = rhi::BufferUsage;
+    EXPECT_EQ(resource(made, "att.Args")->bufferUsage, Usage::Storage | Usage::CopyDst | Usage::Indirect);
+    EXPECT_EQ(resource(made, "att.Points")->bufferUsage,
+              Usage::Storage | Usage::CopyDst | Usage::CopySrc | Usage::Vertex);
+    EXPECT_EQ(slot(made, "Count", "args")->load, rhi::LoadOp::Clear);
+    EXPECT_EQ(slot(made, "Move", "points")->load, rhi::LoadOp::DontCare);
+    for (const PlanPass& pass : made.passes) {
+        if (pass.name == "Move") {
+            EXPECT_EQ(pass.slots[pass.indirect].name, "args");
+        }
+        if (pass.name == "Count") {
+            EXPECT_EQ(pass.indirect, ~0U);
+        }
+    }
+}
+
+TEST(Plan, ParametersOfAClassComeFromTheFileSettingsAndDefaults) {
+    const Plan made = plan(moreGrammar(), moreHost());
+    const auto found = std::find_if(made.passes.begin(), made.passes.end(),
+                                    [](const PlanPass& pass) { return pass.passClass == "Blend"; });
+    ASSERT_NE(found, made.passes.end());
+    EXPECT_EQ(found->kind, PassKind::Raster);
+    EXPECT_EQ(found->parameters,
+              (std::vector<PlanParameter>{{"weight", 0.25, ""}, {"style", 1, "hard"}, {"glow", 1, ""}, {"gain", 2, ""}}));
+}
+
+TEST(Plan, VersionsNameWhoMadeWhat) {
+    const Plan made = plan();
+    const PlanSlot* glass = slot(made, "Glass", "color");
+    EXPECT_EQ(glass->reads, 1U);
+    EXPECT_EQ(glass->makes, 2U);
+    EXPECT_EQ(made.passes[glass->producer].name, "Hair");
+    EXPECT_EQ(slot(made, "Hair", "color")->reads, ~0U) << "it begins";
+    EXPECT_EQ(slot(made, "Hair", "color")->makes, 1U);
+    EXPECT_EQ(resource(made, "att.Hair")->versions, 3U);
+    EXPECT_EQ(slot(made, "Resolve", "scene")->producer, ~0U) << "lent";
+}
+
 TEST(Plan, ReaderOfAnOldVersionRunsBeforeTheChange) {
     std::string text = edited(wholeGrammar(), R"(["Glass.color", "Hair.color"])", R"("Hair.color")");
     text = edited(text, R"("exports": {)", R"("exports": { "Glass": { "from": "Glass.color", "optional": true },)");

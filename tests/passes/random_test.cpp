@@ -49,6 +49,18 @@ void forEachTree(Use&& use) {
     }
 }
 
+// What says "after" comes after, though no data says so.
+void inOrderOfAfter(const PassTree::Description& tree, const Plan& plan) {
+    std::map<std::string, std::size_t> place;
+    for (std::size_t i = 0; i < plan.passes.size(); ++i) place[plan.passes[i].name] = i;
+    for (const PassDeclaration& pass : tree.passes) {
+        for (const OrderedAfter& after : pass.after) {
+            if (!place.count(pass.name) || !place.count(after.pass)) continue;
+            EXPECT_LT(place[after.pass], place[pass.name]) << pass.name << " after " << after.pass;
+        }
+    }
+}
+
 TEST(RandomTrees, EveryValidOrderGivesTheSameExports) {
     const HostDescription host = randomHost();
     std::size_t passes = 0, different = 0, runs = 0, culled = 0, shared = 0;
@@ -67,6 +79,7 @@ TEST(RandomTrees, EveryValidOrderGivesTheSameExports) {
             ASSERT_EQ(made.exports, expected.exports) << "seed " << seed << ", order " << order;
             ASSERT_EQ(made.found, expected.found) << "seed " << seed << ", order " << order;
             ++runs;
+            inOrderOfAfter(tree.description(), *other.plan);
             for (std::size_t i = 0; i < other.plan->passes.size(); ++i) {
                 if (other.plan->passes[i].name == first.plan->passes[i].name) continue;
                 ++different;

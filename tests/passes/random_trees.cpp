@@ -196,8 +196,9 @@ private:
             if (!holds(resource, newest(resource))) run_.fault = "export " + name + " has been overwritten";
         }
         for (const PlanResource& image : plan_.resources) {
-            if (image.kind == PlanResource::Kind::History && image.partner != none)
-                last_[image.name] = newest(image.partner);
+            if (image.kind != PlanResource::Kind::History || image.partner == none) continue;
+            last_[image.name] = newest(image.partner);
+            if (!holds(image.partner, newest(image.partner))) run_.fault = image.name + " was not kept";
         }
     }
 
