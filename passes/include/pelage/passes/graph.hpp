@@ -60,6 +60,8 @@ public:
     /// `host` are taken to answer as they did. What an attachment with a history remembers survives a new plan in which
     /// it has the same shape.
     Checked<void> build(const PassTree& tree, const HostDescription& host);
+    /// The next build() plans anew although nothing it can see has changed: shaders were compiled again, say.
+    void invalidate() { stale_ = true; }
     const Plan& plan() const;
     bool valid() const { return state_ != nullptr; }
     /// How many plans were made by builds that worked.
@@ -84,6 +86,7 @@ private:
     std::shared_ptr<State> state_;
     Descriptor descriptor_;
     std::uint64_t plansMade_ = 0;
+    bool stale_ = false;
 };
 
 }  // namespace pelage::passes
