@@ -2,6 +2,8 @@
 // What outlives a pass on a device: heaps that images share, histories, buffers, and the plan itself.
 #include "graph_fixture.hpp"
 
+#include <cmath>
+
 namespace pelage::passes::test {
 namespace {
 
@@ -48,6 +50,32 @@ TEST_F(GraphMemoryTest, ImagesInOneHeapKeepWhatIsStillRead) {
             EXPECT_GE(image.heapBytes, image.bytes) << image.name;
         }
     }
+}
+
+TEST_F(GraphMemoryTest, PoisonShowsWhatAPassLeavesUnwritten) {
+    // The triangle covers half of what "dontCare" promises to cover; the other half must not look like anything.
+    const std::string text = R"json({
+  "format": "pelage.passtree/1", "name": "Half", "views": { "main": { "count": 1 } }, "drawLists": ["all"],
+  "attachments": { "Byte": { "format": "RGBA8Unorm", "size": { "frame": 1 } },
+                   "Float": { "format": "RGBA32Float", "size": { "frame": 1 } } },
+  "passes": [
+    { "name": "Byte", "kind": "raster", "view": "main", "drawList": "all",
+      "slots": { "color": { "access": "write", "as": "color", "load": "dontCare" } },
+      "connect": { "color": "att.Byte" } },
+    { "name": "Float", "kind": "raster", "view": "main", "drawList": "all",
+      "slots": { "color": { "access": "write", "as": "color", "load": "dontCare" } },
+      "connect": { "color": "att.Float" } }
+  ],
+  "exports": { "Byte": { "from": "Byte.color" }, "Float": { "from": "Float.color" } } })json";
+    Graph made(
+        {.device = gpu.device, .shaders = [this](const std::string& file) { return shader(file); }, .poison = true});
+    mustBuild(made, text, {.extent = {8, 8, 1}});
+    frame(made);
+    EXPECT_EQ(read<Pixel>(made.exported("Byte"))[7 * 8], (Pixel{64, 128, 255, 255}));
+    EXPECT_EQ(read<Pixel>(made.exported("Byte"))[7], (Pixel{255, 0, 255, 255}));
+    using Texel = std::array<float, 4>;
+    EXPECT_EQ(read<Texel>(made.exported("Float"))[7 * 8], (Texel{0.25F, 0.5F, 1.0F, 1.0F}));
+    EXPECT_TRUE(std::isnan(read<Texel>(made.exported("Float"))[7][0]));
 }
 
 TEST_F(GraphMemoryTest, ExportOfTheLastFrameStaysUntilTheNextIsRecorded) {

@@ -50,6 +50,9 @@ public:
         ShaderSource shaders = {};
         bool measure = true;             // timestamps and statistics per pass
         PassClassRegistry classes = {};  // that trees may name
+        /// For finding faults: paints each image of the heap that can be a target before it begins in a frame (not a
+        /// number, or magenta), so that what a pass leaves unwritten shows. Costs a render pass for each layer.
+        bool poison = false;
     };
     Graph() = default;
     explicit Graph(Descriptor descriptor);
