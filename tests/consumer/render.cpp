@@ -5,6 +5,7 @@
 #include <pelage/hair/library.hpp>
 #include <pelage/hair/renderer.hpp>
 
+#include <atomic>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -23,11 +24,13 @@ bool looksLikeBrownHair(const hair::Picture& picture) {
     double coverage = 0, red = 0, green = 0, blue = 0, squares = 0;
     for (std::size_t i = 0; i + 3 < picture.linear.size(); i += 4) {
         const double r = picture.linear[i], g = picture.linear[i + 1], b = picture.linear[i + 2];
-        coverage += picture.linear[i + 3];
+        const double alpha = picture.linear[i + 3];
+        if (alpha <= 0) continue;
+        coverage += alpha;
         red += r;
         green += g;
         blue += b;
-        squares += g * g;
+        squares += g * g / alpha;  // colours are premultiplied
     }
     const double pixels = double(picture.width) * picture.height;
     const double mean = green / coverage, variance = squares / coverage - mean * mean;
@@ -40,7 +43,7 @@ bool looksLikeBrownHair(const hair::Picture& picture) {
 }  // namespace
 
 int main() {
-    int complaints = 0;
+    std::atomic<int> complaints = 0;  // from whatever thread
     auto instance =
         rhi::Instance::create({.label = "consumer", .validation = true, .onMessage = [&](const rhi::Message& m) {
                                    if (m.level != rhi::LogLevel::Error) return;
