@@ -119,6 +119,10 @@ void MemoryAllocator::release(const Allocation& allocation) {
     std::erase_if(blocks_, [&](const auto& b) { return b.get() == block; });
 }
 
+std::uint32_t MemoryAllocator::typeOf(const Allocation& allocation) const {
+    return allocation.block->type;
+}
+
 MemoryCounters MemoryAllocator::counters() const {
     const std::lock_guard lock(mutex_);
     MemoryCounters c;

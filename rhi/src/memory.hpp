@@ -42,6 +42,7 @@ public:
     Result<Allocation> allocate(const VkMemoryRequirements& requirements, MemoryUse use, bool optimalImage,
                                 const std::string& object);
     void release(const Allocation& allocation);
+    std::uint32_t typeOf(const Allocation& allocation) const;
     MemoryCounters counters() const;
 
 private:

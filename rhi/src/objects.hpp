@@ -18,6 +18,7 @@ namespace pelage::rhi::detail {
 
 struct DeviceObject;
 struct TextureViewObject;
+struct TransientHeapObject;
 
 struct Object {
     Object(std::shared_ptr<DeviceObject> owner, std::string_view kindName, std::string objectLabel);
@@ -52,11 +53,15 @@ struct TextureObject final : Object, std::enable_shared_from_this<TextureObject>
         return descriptor.dimension == TextureDimension::E3D ? 1 : descriptor.size.depthOrArrayLayers;
     }
     Extent3D mipSize(std::uint32_t mip) const;
+    void markUsed(std::uint64_t value) override;
     TextureDescriptor descriptor;
     VkImage handle = VK_NULL_HANDLE;
-    Allocation allocation;
-    bool ownsImage = true;  // false: a swapchain's
-    TextureState state;     // under the queue's mutex
+    Allocation allocation;  // none when it is placed in a heap
+    std::uint64_t bytes = 0;
+    bool ownsImage = true;  // false: a swapchain's or a host's
+    // Under the queue's mutex. Shared, because a heap must know how a texture was used that is gone by now.
+    std::shared_ptr<TextureState> state = std::make_shared<TextureState>();
+    std::shared_ptr<TransientHeapObject> heap;
     std::mutex viewMutex;
     // A view keeps its texture, so the cache must not keep the view.
     std::vector<std::pair<TextureViewDescriptor, std::weak_ptr<TextureViewObject>>> views;

@@ -86,6 +86,11 @@ struct DrawIndexed {
 struct Dispatch {
     std::uint32_t x = 0, y = 0, z = 0;
 };
+struct Indirect {  // the arguments lie in a buffer
+    enum class Command : std::uint8_t { Draw, DrawIndexed, Dispatch } command = Command::Draw;
+    BufferObject* buffer = nullptr;
+    std::uint64_t offset = 0;
+};
 struct CopyBuffer {
     BufferObject* source = nullptr;
     BufferObject* destination = nullptr;
@@ -131,8 +136,8 @@ using Packet =
     std::variant<packet::Scope, packet::BeginRendering, packet::EndRendering, packet::BeginLabel, packet::EndLabel,
                  packet::BindPipeline, packet::BindSet, packet::Push, packet::BindVertexBuffer, packet::BindIndexBuffer,
                  packet::Viewport, packet::Scissor, packet::LineWidth, packet::Draw, packet::DrawIndexed,
-                 packet::Dispatch, packet::CopyBuffer, packet::CopyBufferImage, packet::CopyImage, packet::Fill,
-                 packet::Timestamp, packet::ResolveQueries, packet::Upload>;
+                 packet::Dispatch, packet::Indirect, packet::CopyBuffer, packet::CopyBufferImage, packet::CopyImage,
+                 packet::Fill, packet::Timestamp, packet::ResolveQueries, packet::Upload>;
 
 struct Recording {
     std::string label;

@@ -171,8 +171,7 @@ Result<Texture> SurfaceObject::acquire() {
     wait.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
     device->queue.acquired.push_back(wait);
     // What was presented is not kept: the first use may throw the contents away.
-    images[index].texture->state.states.assign(1, AccessState{});
-    images[index].texture->state.states[0].writeStages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    images[index].texture->state->discard(VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT);
     return Texture(images[index].texture);
 }
 

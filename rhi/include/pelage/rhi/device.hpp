@@ -84,6 +84,9 @@ public:
 
     Result<Buffer> createBuffer(const BufferDescriptor& descriptor) const;
     Result<Texture> createTexture(const TextureDescriptor& descriptor) const;
+    /// Memory for textures that are placed in it; what a texture would need there is memoryRequirements().
+    Result<TransientHeap> createTransientHeap(const TransientHeapDescriptor& descriptor) const;
+    Result<MemoryRequirements> memoryRequirements(const TextureDescriptor& descriptor) const;
     Result<Sampler> createSampler(const SamplerDescriptor& descriptor) const;
     Result<BindGroupLayout> createBindGroupLayout(const BindGroupLayoutDescriptor& descriptor) const;
     Result<BindGroup> createBindGroup(const BindGroupDescriptor& descriptor) const;
