@@ -6,6 +6,7 @@
 #include <pelage/rhi/device.hpp>
 
 #include <atomic>
+#include <functional>
 #include <mutex>
 #include <unordered_map>
 
@@ -43,6 +44,8 @@ struct BufferObject final : Object {
     BufferDescriptor descriptor;
     VkBuffer handle = VK_NULL_HANDLE;
     Allocation allocation;
+    bool ownsBuffer = true;  // false: a host's
+    std::function<void()> onRelease;
     AccessState state;  // under the queue's mutex
 };
 
@@ -58,6 +61,7 @@ struct TextureObject final : Object, std::enable_shared_from_this<TextureObject>
     VkImage handle = VK_NULL_HANDLE;
     Allocation allocation;  // none when it is placed in a heap
     std::uint64_t bytes = 0;
+    std::function<void()> onRelease;
     bool ownsImage = true;  // false: a swapchain's or a host's
     // Under the queue's mutex. Shared, because a heap must know how a texture was used that is gone by now.
     std::shared_ptr<TextureState> state = std::make_shared<TextureState>();
@@ -187,6 +191,8 @@ Result<void> needHandle(const H& handle, std::string_view what) {
     if (!handle) return invalid(ErrorCode::InvalidHandle, cat("An empty handle was given for ", what, "."));
     return {};
 }
+/// The checks of a texture's descriptor that hold for a host's image as well.
+Result<void> checkDescriptor(const TextureObject& texture);
 Result<void> needSameDevice(const Object& object, const DeviceObject& device);
 
 }  // namespace pelage::rhi::detail

@@ -182,6 +182,9 @@ public:
     void run(const Recording& recording, CommandBuffer::Counters* counters);
     /// After everything: makes what was written visible to the host, and one texture ready to present.
     void finish(TextureObject* present);
+    /// Brings a host's resource into the state in which it is wanted back; the barrier stands in finish().
+    void handOver(TextureObject& texture, const Access& access);
+    void handOver(BufferObject& buffer, const Access& access);
 
 private:
     template <class P>

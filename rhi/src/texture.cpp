@@ -9,10 +9,12 @@ namespace pelage::rhi {
 namespace detail {
 
 TextureObject::~TextureObject() {
+    if (handle != VK_NULL_HANDLE && onRelease)
+        device->bury(lastUse, [tell = std::move(onRelease)](DeviceObject&) { tell(); });
     if (handle == VK_NULL_HANDLE || !ownsImage) return;
     --device->liveTextures;
     device->bury(lastUse, [image = handle, memory = allocation](DeviceObject& d) {
-        d.functions.vkDestroyImage(d.handle, image, nullptr);
+        d.functions.vkDestroyImage(d.handle, image, d.allocator);
         d.memory.release(memory);
     });
 }
@@ -25,7 +27,7 @@ void TextureObject::markUsed(std::uint64_t value) {
 TextureViewObject::~TextureViewObject() {
     if (handle == VK_NULL_HANDLE) return;
     device->bury(lastUse,
-                 [view = handle](DeviceObject& d) { d.functions.vkDestroyImageView(d.handle, view, nullptr); });
+                 [view = handle](DeviceObject& d) { d.functions.vkDestroyImageView(d.handle, view, d.allocator); });
 }
 
 Extent3D TextureObject::mipSize(std::uint32_t mip) const {
@@ -34,11 +36,9 @@ Extent3D TextureObject::mipSize(std::uint32_t mip) const {
             descriptor.dimension == TextureDimension::E3D ? std::max(s.depthOrArrayLayers >> mip, 1U) : 1U};
 }
 
-namespace {
-
-Result<void> checkTexture(const DeviceObject& device, const TextureObject& object, const VkImageCreateInfo& info) {
+Result<void> checkDescriptor(const TextureObject& object) {
     const auto& d = object.descriptor;
-    const auto& limits = device.info.limits;
+    const auto& limits = object.device->info.limits;
     const bool volume = d.dimension == TextureDimension::E3D;
     const auto bad = [&](ErrorCode code, auto&&... parts) { return invalid(code, cat(object.describe(), parts...)); };
     if (d.size.width == 0 || d.size.height == 0 || d.size.depthOrArrayLayers == 0)
@@ -63,6 +63,16 @@ Result<void> checkTexture(const DeviceObject& device, const TextureObject& objec
     if (d.cubeCompatible && (volume || d.size.width != d.size.height || d.size.depthOrArrayLayers % 6 != 0))
         return bad(ErrorCode::InvalidSize, " is ", d.size.width, 'x', d.size.height, " with ",
                    d.size.depthOrArrayLayers, " layers; a cube is square and has 6 layers or a multiple.");
+    return {};
+}
+
+namespace {
+
+Result<void> checkTexture(const DeviceObject& device, const TextureObject& object, const VkImageCreateInfo& info) {
+    if (auto ok = checkDescriptor(object); !ok) return ok;
+    const auto& d = object.descriptor;
+    const bool volume = d.dimension == TextureDimension::E3D;
+    const auto bad = [&](ErrorCode code, auto&&... parts) { return invalid(code, cat(object.describe(), parts...)); };
     VkPhysicalDeviceImageFormatInfo2 query = {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_IMAGE_FORMAT_INFO_2};
     query.format = info.format;
     query.type = info.imageType;
@@ -127,7 +137,7 @@ Result<Texture> makeTexture(const std::shared_ptr<DeviceObject>& device, const T
     if (auto ok = checkPlace(*object, needs); !ok) return forward(ok.error());
     const auto& vk = device->functions;
     VkImage image = VK_NULL_HANDLE;
-    if (const auto r = vk.vkCreateImage(device->handle, &info, nullptr, &image); r != VK_SUCCESS)
+    if (const auto r = vk.vkCreateImage(device->handle, &info, device->allocator, &image); r != VK_SUCCESS)
         return forward(vulkanError(r, "vkCreateImage", object->describe()));
     VkBindImageMemoryInfo bind = {VK_STRUCTURE_TYPE_BIND_IMAGE_MEMORY_INFO};
     bind.image = image;
@@ -139,7 +149,7 @@ Result<Texture> makeTexture(const std::shared_ptr<DeviceObject>& device, const T
     } else {
         auto memory = device->memory.allocate(needs, MemoryUse::Device, true, object->describe());
         if (!memory) {
-            vk.vkDestroyImage(device->handle, image, nullptr);
+            vk.vkDestroyImage(device->handle, image, device->allocator);
             return forward(memory.error());
         }
         own = *memory;
@@ -147,7 +157,7 @@ Result<Texture> makeTexture(const std::shared_ptr<DeviceObject>& device, const T
         bind.memoryOffset = own.offset;
     }
     if (const auto r = vk.vkBindImageMemory2(device->handle, 1, &bind); r != VK_SUCCESS) {
-        vk.vkDestroyImage(device->handle, image, nullptr);
+        vk.vkDestroyImage(device->handle, image, device->allocator);
         device->memory.release(own);
         return forward(vulkanError(r, "vkBindImageMemory2", object->describe()));
     }
@@ -239,7 +249,7 @@ Result<std::shared_ptr<TextureViewObject>> makeView(const std::shared_ptr<Textur
                                       : d.aspect == TextureAspect::StencilOnly ? VK_IMAGE_ASPECT_STENCIL_BIT
                                                                                : VK_IMAGE_ASPECT_DEPTH_BIT;
     info.subresourceRange = {aspect, d.baseMipLevel, d.mipLevelCount, d.baseArrayLayer, d.arrayLayerCount};
-    if (const auto r = device->functions.vkCreateImageView(device->handle, &info, nullptr, &view->handle);
+    if (const auto r = device->functions.vkCreateImageView(device->handle, &info, device->allocator, &view->handle);
         r != VK_SUCCESS)
         return forward(vulkanError(r, "vkCreateImageView", view->describe()));
     device->nameObject(VK_OBJECT_TYPE_IMAGE_VIEW, view->handle, view->label);

@@ -8,15 +8,28 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace pelage::hair {
 
+/// A host's camera, instead of the scene's. Right-handed view space that looks along -z; clip depth 0..1.
+struct HostView {
+    glm::mat4 view = glm::mat4(1.0F), projection = glm::mat4(1.0F);
+    passes::DepthConvention depth = passes::DepthConvention::Reversed;
+    /// True: clip-space +Y is down, as in Vulkan with a viewport of positive height.
+    bool clipYDown = true;
+};
+
 struct FrameSettings {
     std::uint32_t width = 640, height = 640;
     std::map<std::string, passes::SettingValue> settings = {};  // of the pass tree, those that differ
     std::uint32_t frameIndex = 0;                               // seeds hashed alpha
+    std::optional<HostView> view = {};
+    /// What the host lends to the tree's imports of these names; hair_host takes "SceneColor" and "SceneDepth". They
+    /// may be other textures each frame; another size or format compiles the tree again.
+    std::map<std::string, rhi::Texture> imports = {};
 };
 
 struct AttachmentReport {

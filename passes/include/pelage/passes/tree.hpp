@@ -46,6 +46,7 @@ struct ImportDescription {
     rhi::TextureFormat format = rhi::TextureFormat::Undefined;
     rhi::Extent3D extent = {};
     std::uint32_t samples = 1;
+    bool operator==(const ImportDescription&) const = default;
 };
 
 struct HostDescription {

@@ -45,6 +45,8 @@ struct DeviceDescriptor {
     Feature optionalFeatures = Feature::WideLines | Feature::PipelineStatistics | Feature::Timestamps;
     /// Errors that no error scope caught. Default: written to the instance's onMessage as an Error.
     std::function<void(const Error&)> onUncapturedError = {};
+    /// Called once, with the first error that says so; every call afterwards fails with DeviceLost and does nothing.
+    std::function<void(const Error&)> onDeviceLost = {};
 };
 
 /// A point on the queue's timeline; ordered.
