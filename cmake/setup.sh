@@ -6,7 +6,7 @@
 # Debian 12 names. Everything is used: see the find_package lines of the CMakeLists.txt beside each folder.
 pelagePackages=(
     ninja-build pkgconf doxygen
-    libvulkan-dev mesa-vulkan-drivers vulkan-validationlayers
+    libvulkan-dev libvulkan-volk-dev mesa-vulkan-drivers vulkan-validationlayers
     glslang-tools spirv-tools libspirv-cross-c-shared-dev
     libglfw3-dev libglm-dev libtinygltf-dev nlohmann-json3-dev rapidjson-dev
     libopencolorio-dev libopenexr-dev libstb-dev libcli11-dev libexpected-dev libgtest-dev libboost-dev
