@@ -5,7 +5,7 @@
 
 # Debian 12 names. Everything is used: see the find_package lines of the CMakeLists.txt beside each folder.
 pelagePackages=(
-    ninja-build
+    ninja-build pkgconf doxygen
     libvulkan-dev libvulkan-volk-dev mesa-vulkan-drivers vulkan-validationlayers
     glslang-tools spirv-tools libspirv-cross-c-shared-dev
     libglfw3-dev libglm-dev libtinygltf-dev nlohmann-json3-dev rapidjson-dev
