@@ -100,6 +100,9 @@ struct DeviceObject : std::enable_shared_from_this<DeviceObject> {
     Result<std::pair<VkDescriptorSet, VkDescriptorPool>> allocateSet(VkDescriptorSetLayout layout,
                                                                      const std::string& object);
     void freeSet(VkDescriptorSet set, VkDescriptorPool pool);
+    /// Recordings are used again, so that a frame like the last one allocates nothing for them.
+    void takeRecording(Recording& into);
+    void giveBack(Recording& recording);
 
     std::shared_ptr<AdapterObject> adapter;
     DeviceFunctions functions;
@@ -134,6 +137,9 @@ struct DeviceObject : std::enable_shared_from_this<DeviceObject> {
     std::mutex timelineMutex;
     std::vector<std::uint64_t> openTickets, openSubmissions;  // not known to be done, ascending
     std::uint64_t lastBegun = 0;
+
+    std::mutex recordingMutex;
+    std::vector<std::unique_ptr<Recording>> recordings;
 
     std::mutex poolMutex;
     std::vector<VkDescriptorPool> pools;

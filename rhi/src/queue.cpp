@@ -82,11 +82,11 @@ void markSent(DeviceObject& device, std::uint64_t value, std::span<const Command
     for (const auto& object : q.uploads->references) object->markUsed(value);
     for (auto& chunk : q.staging)
         if (chunk.value == 0 && chunk.used > 0) chunk.value = value;
-    *q.uploads = Recording();
+    q.uploads->clear();
     for (const auto& c : commandBuffers) {
         c.get()->submitted = true;
         for (const auto& object : c.get()->recording.references) object->markUsed(value);
-        c.get()->recording = Recording();  // used once: its objects are free to go when the device is done
+        device.giveBack(c.get()->recording);  // used once: its objects are free to go when the device is done
     }
 }
 
