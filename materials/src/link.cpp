@@ -148,9 +148,9 @@ void Linker::linkDefaults() {
 }
 
 void Linker::condition(const std::optional<Word>& expression, std::string_view key, std::size_t property,
-                       std::vector<Condition>& out) {
+                       std::vector<json::Condition>& out) {
     if (!expression) return;
-    Outcome<Condition> parsed = Condition::parse(expression->text, out_.properties);
+    Outcome<json::Condition> parsed = json::Condition::parse(expression->text, names_);
     if (parsed) {
         for (const std::size_t read : parsed->reads()) propertyUsed_[read] = true;
         out.push_back(std::move(*parsed));
@@ -162,6 +162,14 @@ void Linker::condition(const std::optional<Word>& expression, std::string_view k
 }
 
 void Linker::linkConditions() {
+    using Type = json::ConditionNames::Type;
+    for (const Property& property : out_.properties) {
+        const Type type = property.type == ValueType::Bool     ? Type::Bool
+                          : property.type == ValueType::Enum   ? Type::Word
+                          : componentCount(property.type) == 1 ? Type::Number
+                                                               : Type::Other;
+        names_.names.push_back({property.id, type, property.words, property.type == ValueType::Float});
+    }
     out_.visibleWhen.resize(out_.properties.size());
     out_.enabledWhen.resize(out_.properties.size());
     const Word* group = nullptr;

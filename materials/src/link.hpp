@@ -2,8 +2,7 @@
 // A material type after all names were resolved: indices only, nothing left to look up at run time.
 #pragma once
 
-#include "condition.hpp"
-
+#include <pelage/json/condition.hpp>
 #include <pelage/materials/material.hpp>
 
 namespace pelage::materials {
@@ -48,8 +47,8 @@ struct MaterialType::Linked {
     std::vector<std::vector<std::size_t>> shaderOptions = {};  // indices of ShaderUse::options
     std::vector<Connection> connections = {};
     std::vector<FunctorUse> functors = {};
-    std::vector<std::vector<Condition>> visibleWhen = {};  // by property; all must hold (group and property)
-    std::vector<std::vector<Condition>> enabledWhen = {};
+    std::vector<std::vector<json::Condition>> visibleWhen = {};  // by property; all must hold (group and property)
+    std::vector<std::vector<json::Condition>> enabledWhen = {};
     std::vector<Preset> presets = {};
     std::vector<std::string> presetNames = {};
     std::vector<VersionStep> versionSteps = {};

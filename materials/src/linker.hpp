@@ -31,7 +31,7 @@ private:
     bool drive(const Target& target, const Word& by, std::string what);
     bool optionFits(const Property& property, const Option& option, const Word& at);
     void condition(const std::optional<Word>& text, std::string_view key, std::size_t property,
-                   std::vector<Condition>& out);
+                   std::vector<json::Condition>& out);
     // link_functors.cpp
     void linkFunctors();
     void linkFunctor(const FunctorDescription& description);
@@ -55,6 +55,7 @@ private:
     const FunctorRegistry& registry_;
     MaterialType::Linked out_ = {};
     Diagnostics diagnostics_ = {};
+    json::ConditionNames names_ = {};  // what a condition may read: the properties, by their index
     struct Driver {
         Target target = {};
         std::string what = {};
