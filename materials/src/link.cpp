@@ -34,16 +34,6 @@ std::optional<std::size_t> MaterialType::Linked::indexOf(std::string_view proper
     return {};
 }
 
-std::string MaterialType::Linked::currentName(std::string_view propertyId) const {
-    std::string now(propertyId);
-    for (const VersionStep& step : versionSteps) {
-        for (const auto& [from, to] : step.renames) {
-            if (from == now) now = to;
-        }
-    }
-    return now;
-}
-
 MaterialType::Linked Linker::run() {
     out_.name = description_.name;
     out_.file = description_.file;

@@ -2,6 +2,8 @@
 // A material type after all names were resolved: indices only, nothing left to look up at run time.
 #pragma once
 
+#include "versions.hpp"
+
 #include <pelage/json/condition.hpp>
 #include <pelage/materials/material.hpp>
 
@@ -30,12 +32,6 @@ struct Preset {
     std::vector<std::pair<std::size_t, Value>> values = {};
 };
 
-struct VersionStep {
-    int to = 0;
-    std::vector<std::pair<std::string, std::string>> renames = {};
-    std::vector<std::pair<std::size_t, Value>> values = {};
-};
-
 struct MaterialType::Linked {
     std::string name = {}, file = {};
     int version = 1;
@@ -55,8 +51,6 @@ struct MaterialType::Linked {
     Diagnostics warnings = {};
 
     std::optional<std::size_t> indexOf(std::string_view propertyId) const;
-    /// The name a property has now, following renames from any older version.
-    std::string currentName(std::string_view propertyId) const;
 };
 
 std::vector<std::string> propertyIds(const std::vector<Property>& properties);

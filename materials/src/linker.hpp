@@ -44,8 +44,10 @@ private:
     void optionDefault(const Target& target, const Value& value, std::string_view by);
     // link_versions.cpp
     void linkVersions();
+    void retire(const VersionDescription::Action& described, std::map<std::string, json::Place>& retired);
+    void linkAction(const VersionDescription::Action& described, VersionStep& step);
     void linkPresets();
-    std::optional<Value> value(const ValueDescription& description, std::size_t property);
+    std::optional<Value> value(const json::Value& written, std::size_t property);
 
     void error(std::string code, json::Place place, std::string text, std::string hint = {});
     void warn(std::string code, json::Place place, std::string text, std::string hint = {});
