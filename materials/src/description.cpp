@@ -135,6 +135,7 @@ ShaderDescription describeShader(const Member& member) {
     out.name = key(member);
     out.shader.name = member.key;
     out.shader.drawList = text(value, "drawList");
+    out.drawList = value.find("drawList")->place;
     out.shader.vertex = text(value, "vertex");
     out.shader.fragment = text(value, "fragment");
     if (const json::Value* enabled = value.find("enabled")) out.shader.enabledByDefault = enabled->boolean;

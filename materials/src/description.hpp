@@ -44,6 +44,7 @@ struct OptionDescription {
 struct ShaderDescription {
     ShaderUse shader = {};
     Word name = {};
+    json::Place drawList = {};
     bool allOptions = false;
     std::vector<Word> options = {};
 };

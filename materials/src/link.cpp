@@ -226,6 +226,7 @@ void Linker::linkShaders() {
         }
         for (const std::size_t index : indices) shader.options.push_back(out_.options[index].name);
         out_.shaders.push_back(std::move(shader));
+        out_.drawListPlaces.push_back(description.drawList);
         out_.shaderOptions.push_back(std::move(indices));
     }
 }

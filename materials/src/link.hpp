@@ -40,6 +40,7 @@ struct MaterialType::Linked {
     std::vector<std::size_t> inputSlots = {};  // place in CompiledMaterial::inputs or ::textures
     std::vector<Option> options = {};
     std::vector<ShaderUse> shaders = {};
+    std::vector<json::Place> drawListPlaces = {};              // by shader
     std::vector<std::vector<std::size_t>> shaderOptions = {};  // indices of ShaderUse::options
     std::vector<Connection> connections = {};
     std::vector<FunctorUse> functors = {};

@@ -150,7 +150,7 @@ Outcome<Stage> makeStage(const StageOptions& options, hair::Library& library) {
     stage.watched.push_back(stage.tree->file());
     for (const hair::Object& object : stage.file.scene.objects) {
         stage.watched.push_back(object.material.type().file());
-        for (const std::string& file : object.material.files()) stage.watched.push_back(file);
+        for (const std::string& read : object.material.files()) stage.watched.push_back(read);
     }
     return stage;
 }

@@ -68,6 +68,8 @@ public:
     const std::vector<ShaderUse>& shaders() const;
     const std::vector<std::string>& presets() const;
     const Property* find(std::string_view id) const;
+    /// M017, a warning, for each shader whose draw list is not among `known`, those of a pass tree: nothing draws it.
+    Diagnostics unknownDrawLists(const std::vector<std::string>& known) const;
     /// Warnings found while reading (errors do not give a type).
     const Diagnostics& warnings() const;
 
