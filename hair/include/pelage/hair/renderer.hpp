@@ -32,7 +32,8 @@ struct AttachmentReport {
 
 /// When pipelines are made. Synchronous: before the frame that needs them is recorded, so that every picture is whole.
 /// Background: on one thread of the renderer's own; until all pipelines of a changed material are there, the object is
-/// drawn as it was before, and at the very first not at all.
+/// drawn in the same passes and with the same pipelines as before (its numbers are new at once), and at first not at
+/// all.
 enum class PipelineMode : std::uint8_t { Synchronous, Background };
 
 struct FrameReport {
