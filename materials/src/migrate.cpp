@@ -6,6 +6,7 @@
 #include <pelage/materials/migrate.hpp>
 
 #include <algorithm>
+#include <cmath>
 
 namespace pelage::materials {
 namespace {
@@ -31,6 +32,9 @@ std::string valueText(const json::Value& value) {
         case json::Kind::Bool:
             return value.boolean ? "true" : "false";
         case json::Kind::Number:
+            // Whole numbers may need more digits than a float has.
+            if (value.isInteger && std::abs(value.number) < 9e15)
+                return std::to_string(static_cast<std::int64_t>(value.number));
             return shown(value.number);
         case json::Kind::String:
             return stringText(value.string);

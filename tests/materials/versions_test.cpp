@@ -197,6 +197,18 @@ TEST(Migrate, MembersStayInTheirOrder) {
 )");
 }
 
+TEST(Migrate, WholeNumbersKeepAllTheirDigits) {
+    const auto type = R"({ "format": "pelage.materialtype/1", "version": 2, "name": "Test",
+"groups": [{ "name": "look", "properties": [
+  { "name": "seed", "type": "int", "default": 0, "connect": { "input": "seed" } } ] }],
+"inputs": { "seed": "int" }, "shaders": { "main": { "drawList": "forward", "vertex": "a.vert" } } })";
+    const auto types = [&](const std::string&) { return MaterialType::parse(type, "T", FunctorRegistry::standard()); };
+    const auto migrated = migrate(file(1, R"("look.seed": 2147483647)"), "I", types);
+    ASSERT_TRUE(migrated) << migrated.error().text();
+    EXPECT_TRUE(migrated->isNeeded);
+    EXPECT_NE(migrated->text.find("2147483647"), std::string::npos) << migrated->text;
+}
+
 TEST(Migrate, AnOldNameInANewFileIsRewritten) {
     const auto migrated = migrate(file(5, R"("look.tilt": 6)"), "I", source());
     ASSERT_TRUE(migrated);
