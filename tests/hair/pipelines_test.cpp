@@ -100,6 +100,10 @@ public:
         keys_.push_back(key);
         threads_.insert(std::this_thread::get_id());
         changed_.notify_all();
+        if (!open_ && std::this_thread::get_id() == drawing_) {
+            ADD_FAILURE() << "a pipeline is made on the thread that draws";
+            return;
+        }
         changed_.wait(lock, [&] { return open_; });
     }
     void set(bool open) {
@@ -120,6 +124,7 @@ private:
     std::mutex mutex_;
     std::condition_variable changed_;
     bool open_ = true;
+    const std::thread::id drawing_ = std::this_thread::get_id();
     std::vector<std::uint64_t> keys_;
     std::set<std::thread::id> threads_;
 };
