@@ -100,13 +100,18 @@ TEST_F(HostMaterial, ItsInputsAndOptionsReachTheShader) {
     EXPECT_GT(compare(striped.display, render(drawing, scene, 64).display).mean, 1.0);
 }
 
-// The layout of set 2 has the shape of another shader's, which calls its texture differently.
+// Two shaders whose bindings are equal but for the name of a texture share one layout, which has the name of the first.
 TEST_F(HostMaterial, NamesAreThoseOfTheShaderNotOfASharedLayout) {
-    hair::Scene scene = sceneOf(std::string(soundType));
-    scene.objects.push_back({.name = "hair", .geometry = cards(), .material = material("brown")});
-    scene.objects.back().transform[3] = glm::vec4(0, 5, 0, 1);
+    std::string twin(soundType);
+    for (const auto& [from, to] : {std::pair{"probe.frag", "twin.frag"}, std::pair{"noiseMap", "grainMap"}}) {
+        for (auto at = twin.find(from); at != std::string::npos; at = twin.find(from))
+            twin.replace(at, std::string_view(from).size(), to);
+    }
+    hair::Scene scene = sceneOf(twin);
+    scene.objects[0].transform[3] = glm::vec4(0, 50, 0, 1);
+    scene.objects.push_back(sceneOf(std::string(soundType)).objects[0]);
+    scene.objects[1].material.set("g.map", materials::Value::texture("builtin.white"));
     hair::Renderer drawing = renderer();
-    scene.objects[0].material.set("g.map", materials::Value::texture("builtin.white"));
     EXPECT_NEAR(middle(render(drawing, scene, 64)).x, 1.2F, 2e-3F);
 }
 
