@@ -66,7 +66,10 @@ Diagnostics checkScene(const std::string& path, hair::Library& library) {
     if (!scene) return scene.error();
     Diagnostics found = scene->notes;
     const auto tree = library.passTree(scene->passTree);
-    if (!tree) return found;
+    if (!tree) {
+        found.append(tree.error());
+        return found;
+    }
     std::set<std::shared_ptr<const materials::MaterialType>> types;
     for (const hair::Object& object : scene->scene.objects) {
         const auto& type = object.material.sharedType();
