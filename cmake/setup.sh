@@ -5,11 +5,11 @@
 
 # Debian 12 names. Everything is used: see the find_package lines of the CMakeLists.txt beside each folder.
 pelagePackages=(
-    ninja-build
-    libvulkan-dev mesa-vulkan-drivers vulkan-validationlayers
+    ninja-build pkgconf doxygen
+    libvulkan-dev libvulkan-volk-dev mesa-vulkan-drivers vulkan-validationlayers
     glslang-tools spirv-tools libspirv-cross-c-shared-dev
     libglfw3-dev libglm-dev libtinygltf-dev nlohmann-json3-dev rapidjson-dev
-    libopencolorio-dev libopenexr-dev libstb-dev libcli11-dev libexpected-dev libgtest-dev libboost-dev
+    libopencolorio-dev libopenexr-dev libstb-dev libcli11-dev libexpected-dev libgtest-dev libbenchmark-dev libboost-dev
 )
 
 # Prints the packages of the list that are not installed.

@@ -4,6 +4,10 @@
 #define PELAGE_FRAME_GLSL
 
 #define MAX_LIGHTS 8
+#ifndef FRAME_SET  // passes that are not raster passes have it as a slot, in set 1
+#define FRAME_SET 0
+#define FRAME_BINDING 0
+#endif
 
 struct LightData {
     vec4 position;    // xyz: m; w: 1 point, 0 directional
@@ -13,8 +17,8 @@ struct LightData {
     vec4 shadowDepth; // x: near, y: far (m); z: 1 perspective, 0 orthographic; w: 1 / size of the map in texels
 };
 
-layout(set = 0, binding = 0, std140) uniform Frame {
-    mat4 viewProjection;
+layout(set = FRAME_SET, binding = FRAME_BINDING, std140) uniform Frame {
+    mat4 viewProjection, inverseViewProjection;
     vec4 eye;         // xyz: m, world; w: number of lights
     vec4 viewport;    // width, height, 1 / width, 1 / height
     vec4 pixel;       // metres per pixel = x * distance to the eye + y; z: frame index; w: exposure

@@ -29,23 +29,28 @@ private:
     void passNames() {
         std::map<std::string, Place> seen;
         for (const PassDeclaration& pass : tree_.passes) {
-            for (const std::string_view reserved : {"att", "const", "host", "setting"}) {
+            for (const std::string_view reserved : {"att", "const", "history", "host", "setting"}) {
                 if (pass.name == reserved) {
                     reporter_.error(pass.namePlace, "P001", "'" + pass.name + "' cannot be a pass name",
-                                    "reserved: att, const, host, setting");
+                                    "reserved: att, const, history, host, setting");
                 }
             }
             const auto [first, isNew] = seen.emplace(pass.name, pass.namePlace);
             if (!isNew) {
                 reporter_.error(pass.namePlace, "P002", "second pass named '" + pass.name + "'",
-                                "first at " + atPlace(first->second));
+                                "first at " + reporter_.at(first->second));
             }
         }
     }
 
     void passWords(const PassDeclaration& pass) {
         const std::string title = "pass '" + pass.name + "'";
-        if (pass.kind == PassKind::Raster) {
+        const bool isClass = !pass.passClass.empty();
+        if (isClass) {
+            if (!pass.drawList.empty())
+                reporter_.error(pass.drawListPlace, "P024", title + " draws no list: its class records it",
+                                "remove \"drawList\"");
+        } else if (pass.kind == PassKind::Raster) {
             if (pass.drawList.empty()) {
                 reporter_.error(pass.place, "P010", "raster " + title + " has no \"drawList\"");
             } else if (!has(namesOf(tree_.drawLists), pass.drawList)) {
@@ -65,14 +70,19 @@ private:
             reporter_.error(pass.viewPlace, "P029", title + ": unknown view '" + pass.view + "'",
                             didYouMean(pass.view, namesOf(tree_.views), "add it to \"views\""));
         }
-        if ((pass.kind == PassKind::Fullscreen || pass.kind == PassKind::Compute) && pass.shader.file.empty()) {
-            reporter_.error(
-                pass.place, "P012",
-                (pass.kind == PassKind::Compute ? "compute " : "fullscreen ") + title + " has no \"shader\"");
-        }
-        if (!pass.dispatchLike.empty() && !pass.slot(pass.dispatchLike)) {
-            reporter_.error(pass.dispatchPlace, "P014", title + " has no slot '" + pass.dispatchLike + "'",
-                            didYouMean(pass.dispatchLike, pass.slotNames()));
+        const bool shaded = pass.kind == PassKind::Fullscreen || pass.kind == PassKind::Compute;
+        if (!isClass && shaded && pass.shader.file.empty())
+            reporter_.error(pass.place, "P012", std::string(word(pass.kind)) + " " + title + " has no \"shader\"");
+        if (isClass && !pass.shader.file.empty())
+            reporter_.error(pass.shader.place, "P024", title + " has a \"shader\", but its class records it",
+                            "remove it");
+        dispatchSlot(pass, pass.dispatchLike, pass.dispatchPlace);
+        if (const SlotDeclaration* slot = dispatchSlot(pass, pass.dispatchIndirect, pass.indirectPlace);
+            slot && slot->use != SlotUse::Indirect) {
+            reporter_.error(pass.indirectPlace, "P023",
+                            "slot '" + pass.name + "." + slot->name + "' is " + std::string(word(slot->use)) +
+                                "; \"dispatchIndirect\" needs one used as indirect",
+                            R"(write "as": "indirect")");
         }
         for (const OrderedAfter& after : pass.after) {
             if (!tree_.pass(after.pass)) {
@@ -81,49 +91,53 @@ private:
             }
         }
         for (const ConstantDeclaration& constant : pass.constants) settingName(constant.value);
+        for (const ParameterDeclaration& parameter : pass.parameters) settingName(parameter.value);
     }
 
-    // What each kind of pass can do with an image.
-    static bool fits(PassKind kind, SlotUse use) {
-        switch (use) {
-            case SlotUse::Color:
-            case SlotUse::Depth:
-                return kind == PassKind::Raster || kind == PassKind::Fullscreen;
-            case SlotUse::Sampled:
-            case SlotUse::Storage:
-            case SlotUse::Uniform:
-                return kind != PassKind::Copy;
-            case SlotUse::Copy:
-                return kind == PassKind::Copy;
+    const SlotDeclaration* dispatchSlot(const PassDeclaration& pass, const std::string& name, Place place) {
+        const SlotDeclaration* slot = name.empty() ? nullptr : pass.slot(name);
+        if (!slot && !name.empty()) {
+            reporter_.error(place, "P014", "pass '" + pass.name + "' has no slot '" + name + "'",
+                            didYouMean(name, pass.slotNames()));
         }
-        return false;
+        return slot;
     }
 
     void slotWords(const PassDeclaration& pass, const SlotDeclaration& slot) {
         const std::string title = "slot '" + pass.name + "." + slot.name + "'";
+        const std::string use(word(slot.use));
         const bool bound = slot.use == SlotUse::Sampled || slot.use == SlotUse::Storage || slot.use == SlotUse::Uniform;
         const bool target = slot.use == SlotUse::Color || slot.use == SlotUse::Depth;
-        if (!fits(pass.kind, slot.use)) {
-            reporter_.error(slot.place, "P023", title + " is of a use that a " + word(pass.kind) + " pass cannot have");
+        const bool isClass = !pass.passClass.empty();
+        // What a class records is known when the tree is compiled.
+        if (!isClass && !fits(pass.kind, slot.use)) {
+            reporter_.error(slot.place, "P023",
+                            title + " is of a use that a " + std::string(word(pass.kind)) + " pass cannot have");
             return;
         }
-        if ((slot.use == SlotUse::Sampled || slot.use == SlotUse::Uniform) && slot.access != SlotAccess::Read) {
-            reporter_.error(
-                slot.place, "P023",
-                title + " is " + (slot.use == SlotUse::Sampled ? "sampled" : "uniform") + ", which can only be read",
-                "use \"storage\" or \"color\"");
+        const bool readOnly = slot.use == SlotUse::Sampled || slot.use == SlotUse::Uniform ||
+                              slot.use == SlotUse::Vertex || slot.use == SlotUse::Indirect;
+        if (readOnly && slot.access != SlotAccess::Read) {
+            reporter_.error(slot.place, "P023", title + " is " + use + ", which can only be read",
+                            "use \"storage\" or \"color\"");
         }
         if (slot.use == SlotUse::Color && slot.access == SlotAccess::Read) {
             reporter_.error(slot.place, "P023", title + " is a color target that is only read", "use \"sampled\"");
         }
         if (bound && slot.bind.empty()) {
-            reporter_.error(slot.place, "P020", title + " is " + word(slot.use) + " but has no \"bind\"",
+            reporter_.error(slot.place, "P020", title + " is " + use + " but has no \"bind\"",
                             "name the shader resource");
         } else if (!bound && !slot.bind.empty()) {
-            reporter_.error(slot.bindPlace, "P020", title + " has a \"bind\" but is " + word(slot.use), "remove it");
+            reporter_.error(slot.bindPlace, "P020", title + " has a \"bind\" but is " + use, "remove it");
         }
-        if (slot.hasClear && target && slot.clearIsDepth != (slot.use == SlotUse::Depth)) {
-            reporter_.error(slot.clearPlace, "P027", title + " is a " + word(slot.use) + " target",
+        const bool zeroed = slot.clearIsZero && slot.use == SlotUse::Storage && slot.access != SlotAccess::Read;
+        if (zeroed) {
+            // Whether it is a buffer is seen at its connections (P037).
+        } else if (slot.clearIsZero && target) {
+            reporter_.error(slot.clearPlace, "P027", title + " is a " + use + " target",
+                            slot.use == SlotUse::Depth ? R"(write {"depth": "far"})" : "write [r, g, b, a]");
+        } else if (slot.hasClear && target && slot.clearIsDepth != (slot.use == SlotUse::Depth)) {
+            reporter_.error(slot.clearPlace, "P027", title + " is a " + use + " target",
                             slot.clearIsDepth ? "write [r, g, b, a]" : R"(write {"depth": "far"})");
         } else if (slot.hasClear && (!target || slot.access == SlotAccess::Read)) {
             reporter_.error(slot.clearPlace, "P027", title + " is not a target that can be cleared",
@@ -163,6 +177,7 @@ private:
         }
         if (depths > 1) reporter_.error(pass.place, "P051", "pass '" + pass.name + "' has more than one depth target");
         if (colors > 8) reporter_.error(pass.place, "P051", "pass '" + pass.name + "' has more than 8 color targets");
+        if (!pass.passClass.empty()) return;
         const bool draws = pass.kind == PassKind::Raster || pass.kind == PassKind::Fullscreen;
         // Slots of an unknown template are not there to be counted; P004 says so.
         if (draws && colors + depths == 0 && !pass.slots.empty()) {
@@ -212,18 +227,27 @@ private:
         number(attachment.samples, "samples of " + title, true);
         number(attachment.size.width, "size of " + title);
         number(attachment.size.height, "size of " + title);
+        number(attachment.bytes.count, "size of " + title);
         if (!attachment.layersView.empty() && !tree_.view(attachment.layersView)) {
             reporter_.error(attachment.layersPlace, "P029",
                             "layers of " + title + ": unknown view '" + attachment.layersView + "'",
                             didYouMean(attachment.layersView, namesOf(tree_.views), "add it to \"views\""));
         }
-        const std::string& like = attachment.size.like;
-        if (attachment.size.kind != SizeDeclaration::Kind::Like || likeTarget(like)) return;
+        like(attachment.size, title);
+        like(attachment.bytes.pixels, title);
+    }
+
+    void like(const SizeDeclaration& size, const std::string& title) {
+        if (size.kind != SizeDeclaration::Kind::Like || likeTarget(size.like)) return;
         std::vector<std::string> known;
-        for (const ImportDeclaration& import : tree_.imports) known.push_back("host." + import.name);
-        for (const AttachmentDeclaration& other : tree_.attachments) known.push_back("att." + other.name);
-        reporter_.error(attachment.size.place, "P031", "size of " + title + " follows unknown '" + like + "'",
-                        didYouMean(like, known));
+        for (const ImportDeclaration& import : tree_.imports) {
+            if (import.kind != ImportDeclaration::Kind::Buffer) known.push_back("host." + import.name);
+        }
+        for (const AttachmentDeclaration& other : tree_.attachments) {
+            if (!other.isBuffer) known.push_back("att." + other.name);
+        }
+        reporter_.error(size.place, "P031", "size of " + title + " follows unknown image '" + size.like + "'",
+                        didYouMean(size.like, known));
     }
 
     bool likeTarget(const std::string& like) const {
@@ -231,7 +255,8 @@ private:
             const ImportDeclaration* import = tree_.import(like.substr(5));
             return import && import->kind != ImportDeclaration::Kind::Buffer;
         }
-        return like.rfind("att.", 0) == 0 && tree_.attachment(like.substr(4));
+        const AttachmentDeclaration* other = like.rfind("att.", 0) == 0 ? tree_.attachment(like.substr(4)) : nullptr;
+        return other && !other->isBuffer;
     }
 
     void sizeCircles() {
@@ -276,14 +301,39 @@ std::optional<std::uint32_t> numberOfWord(std::string_view word) {
     return value;
 }
 
-std::string word(SlotUse use) {
-    static constexpr std::string_view words[] = {"color", "depth", "sampled", "storage", "uniform", "copy"};
-    return std::string(words[static_cast<std::size_t>(use)]);
+std::string_view word(SlotUse use) {
+    static constexpr std::string_view words[] = {"color",   "depth", "sampled", "storage",
+                                                 "uniform", "copy",  "vertex",  "indirect"};
+    return words[static_cast<std::size_t>(use)];
 }
 
-std::string word(PassKind kind) {
+std::string_view word(PassKind kind) {
     static constexpr std::string_view words[] = {"raster", "fullscreen", "compute", "copy"};
-    return std::string(words[static_cast<std::size_t>(kind)]);
+    return words[static_cast<std::size_t>(kind)];
+}
+
+bool fits(PassKind kind, SlotUse use) {
+    const bool draws = kind == PassKind::Raster || kind == PassKind::Fullscreen;
+    switch (use) {
+        case SlotUse::Color:
+        case SlotUse::Depth:
+            return draws;
+        case SlotUse::Sampled:
+        case SlotUse::Storage:
+        case SlotUse::Uniform:
+            return kind != PassKind::Copy;
+        case SlotUse::Vertex:
+            return kind == PassKind::Raster;
+        case SlotUse::Indirect:
+            return kind == PassKind::Raster || kind == PassKind::Compute;
+        case SlotUse::Copy:
+            return kind == PassKind::Copy;
+    }
+    return false;
+}
+
+bool isBufferUse(SlotUse use) {
+    return use == SlotUse::Uniform || use == SlotUse::Vertex || use == SlotUse::Indirect;
 }
 
 void checkDescription(PassTree::Description& description, Reporter& reporter) {

@@ -14,8 +14,12 @@ void warnUnused(PassTree::Description& description, Reporter& reporter);
 
 /// "4" -> 4.
 std::optional<std::uint32_t> numberOfWord(std::string_view word);
-std::string word(SlotUse use);
-std::string word(PassKind kind);
+std::string_view word(SlotUse use);
+std::string_view word(PassKind kind);
+/// Whether a pass of this kind can have a slot of this use.
+bool fits(PassKind kind, SlotUse use);
+/// Whether the slot takes a buffer, whatever is connected to it; storage and copy take either.
+bool isBufferUse(SlotUse use);
 
 inline bool has(const std::vector<std::string>& words, const std::string& one) {
     return std::find(words.begin(), words.end(), one) != words.end();

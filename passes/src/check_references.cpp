@@ -2,6 +2,7 @@
 #include "check.hpp"
 
 #include <set>
+#include <unordered_map>
 
 namespace pelage::passes {
 namespace {
@@ -91,11 +92,11 @@ private:
                 return;
             }
             case Root::Host:
-                return imported(pass, slot, reference, title);
+                return imported(slot, reference, title);
             case Root::Attachment: {
-                if (!tree_.attachment(reference.member)) {
-                    return unknown(reference, "attachment", namesOf(tree_.attachments), "att.");
-                }
+                const AttachmentDeclaration* attachment = tree_.attachment(reference.member);
+                if (!attachment) return unknown(reference, "attachment", namesOf(tree_.attachments), "att.");
+                kindFits(slot, reference, attachment->isBuffer, title);
                 const bool begins =
                     slot.access == SlotAccess::Write || (slot.access == SlotAccess::ReadWrite && slot.hasClear);
                 if (!begins) {
@@ -105,41 +106,65 @@ private:
                 }
                 return;
             }
+            case Root::History: {
+                const AttachmentDeclaration* attachment = tree_.attachment(reference.member);
+                if (!attachment) return unknown(reference, "attachment", namesOf(tree_.attachments), "history.");
+                if (!attachment->history) {
+                    reporter_.error(reference.place, "P060",
+                                    title + " reads '" + reference.text() + "', but 'att." + reference.member +
+                                        "' keeps no history",
+                                    "add \"history\": 1 to it at " + reporter_.at(attachment->place));
+                    return;
+                }
+                if (writes) {
+                    reporter_.error(reference.place, "P017",
+                                    title + " writes '" + reference.text() + "', which is of the last frame",
+                                    "write 'att." + reference.member + "'");
+                    return;
+                }
+                return kindFits(slot, reference, attachment->isBuffer, title);
+            }
             case Root::Constant:
                 if (!has(constantNames(), reference.member))
                     return unknown(reference, "constant", constantNames(), "const.");
                 if (writes)
                     reporter_.error(reference.place, "P017",
                                     title + " writes '" + reference.text() + "', which is constant");
-                if (!writes && (slot.use == SlotUse::Depth || slot.use == SlotUse::Copy ||
-                                slot.use == SlotUse::Uniform || slot.use == SlotUse::Storage)) {
-                    reporter_.error(
-                        reference.place, "P045",
-                        "'" + reference.text() + "' can only feed sampled slots, " + title + " is " + word(slot.use));
+                if (!writes && slot.use != SlotUse::Sampled) {
+                    reporter_.error(reference.place, "P045",
+                                    "'" + reference.text() + "' can only feed sampled slots, " + title + " is " +
+                                        std::string(word(slot.use)));
                 }
                 return;
         }
     }
 
-    void imported(const PassDeclaration&, const SlotDeclaration& slot, const Reference& reference,
-                  const std::string& title) {
+    void imported(const SlotDeclaration& slot, const Reference& reference, const std::string& title) {
         const ImportDeclaration* import = tree_.import(reference.member);
         if (!import) return unknown(reference, "import", namesOf(tree_.imports), "host.");
         const auto complain = [&](const std::string& does, const std::string& lends, const std::string& access) {
             reporter_.error(reference.place, "P017",
                             title + " " + does + " '" + reference.text() + "', which the host lends " + lends,
-                            "set access of the import at " + atPlace(import->place) + " to " + access);
+                            "set access of the import at " + reporter_.at(import->place) + " to " + access);
         };
         if (slot.access != SlotAccess::Read && import->access == SlotAccess::Read)
             complain("writes", "read-only", "readWrite");
         if (slot.access != SlotAccess::Write && import->access == SlotAccess::Write)
             complain("reads", "write-only", "readWrite");
-        const bool buffer = import->kind == ImportDeclaration::Kind::Buffer;
-        const bool bufferSlot = slot.use == SlotUse::Uniform || (slot.use == SlotUse::Storage && buffer);
-        if (buffer != bufferSlot) {
+        kindFits(slot, reference, import->kind == ImportDeclaration::Kind::Buffer, title);
+    }
+
+    void kindFits(const SlotDeclaration& slot, const Reference& reference, bool buffer, const std::string& title) {
+        const bool either = slot.use == SlotUse::Storage || slot.use == SlotUse::Copy;
+        if (!either && buffer != isBufferUse(slot.use)) {
             reporter_.error(reference.place, "P037",
                             "'" + reference.text() + "' is " + (buffer ? "a buffer" : "an image") + "; " + title +
-                                " is " + word(slot.use));
+                                " is " + std::string(word(slot.use)));
+        } else if (either && !buffer && slot.clearIsZero) {
+            reporter_.error(
+                slot.clearPlace, "P037",
+                "\"clear\": 0 is for buffers; " + title + " is connected to the image '" + reference.text() + "'",
+                "clear it as a color target of another pass");
         }
     }
 
@@ -166,7 +191,7 @@ private:
     void standIn(const PassDeclaration& pass, const SlotDeclaration& slot) {
         if (!slot.whenDisabled) return;
         const Reference& stand = *slot.whenDisabled;
-        const std::string title = word(slot.use) + " slot '" + pass.name + "." + slot.name + "'";
+        const std::string title = std::string(word(slot.use)) + " slot '" + pass.name + "." + slot.name + "'";
         if (slot.access == SlotAccess::Read) {
             reporter_.error(stand.place, "P045", title + " only reads; nobody needs a stand-in for it", "remove it");
         } else if (stand.root != Root::Constant) {
@@ -194,6 +219,7 @@ private:
                 return import && !import->optional ? Feed::Always : Feed::Sometimes;
             }
             case Root::Attachment:
+            case Root::History:
             case Root::Constant:
                 return Feed::Always;
         }
@@ -276,6 +302,7 @@ void warnUnused(PassTree::Description& tree, Reporter& reporter) {
         condition(pass.enabledWhen);
         condition(pass.shader.when);
         for (const ConstantDeclaration& constant : pass.constants) value(constant.value);
+        for (const ParameterDeclaration& parameter : pass.parameters) value(parameter.value);
         for (const SlotDeclaration& slot : pass.slots) {
             for (const Reference& reference : slot.connect) used.insert(reference.text());
         }
@@ -284,6 +311,8 @@ void warnUnused(PassTree::Description& tree, Reporter& reporter) {
     for (const AttachmentDeclaration& attachment : tree.attachments) {
         used.insert("view " + attachment.layersView);
         used.insert(attachment.size.like);
+        used.insert(attachment.bytes.pixels.like);
+        value(attachment.bytes.count);
         value(attachment.samples);
         value(attachment.size.width);
         value(attachment.size.height);
@@ -293,6 +322,9 @@ void warnUnused(PassTree::Description& tree, Reporter& reporter) {
     };
     for (const AttachmentDeclaration& each : tree.attachments)
         warn("att." + each.name, "attachment '" + each.name + "'", each.place);
+    for (const AttachmentDeclaration& each : tree.attachments) {
+        if (each.history) warn("history." + each.name, "the history of attachment '" + each.name + "'", each.place);
+    }
     for (const ImportDeclaration& each : tree.imports)
         warn("host." + each.name, "import '" + each.name + "'", each.place);
     for (const DrawListDeclaration& each : tree.drawLists)
@@ -300,6 +332,74 @@ void warnUnused(PassTree::Description& tree, Reporter& reporter) {
     for (const ViewDeclaration& each : tree.views) warn("view " + each.name, "view '" + each.name + "'", each.place);
     for (const SettingDeclaration& each : tree.settings) {
         warn("setting " + each.info.name, "setting '" + each.info.name + "'", each.place);
+    }
+}
+
+namespace {
+
+template <class T>
+std::unordered_map<std::string_view, std::uint32_t> numbersOf(const std::vector<T>& items) {
+    std::unordered_map<std::string_view, std::uint32_t> numbers;
+    for (std::uint32_t i = 0; i < items.size(); ++i) numbers.emplace(items[i].name, i);
+    return numbers;
+}
+
+}  // namespace
+
+void resolveNames(PassTree::Description& tree) {
+    const auto passes = numbersOf(tree.passes);
+    const auto imports = numbersOf(tree.imports);
+    const auto attachments = numbersOf(tree.attachments);
+    const auto views = numbersOf(tree.views);
+    const auto find = [](const auto& numbers, std::string_view name) {
+        const auto found = numbers.find(name);
+        return found == numbers.end() ? none : found->second;
+    };
+    const auto resolve = [&](Reference& reference) {
+        switch (reference.root) {
+            case Root::Pass: {
+                reference.index = find(passes, reference.owner);
+                if (reference.index == none) return;
+                const auto& slots = tree.passes[reference.index].slots;
+                for (std::uint32_t i = 0; i < slots.size(); ++i) {
+                    if (slots[i].name == reference.member) reference.slot = i;
+                }
+                return;
+            }
+            case Root::Host:
+                reference.index = find(imports, reference.member);
+                return;
+            case Root::Attachment:
+            case Root::History:
+                reference.index = find(attachments, reference.member);
+                return;
+            case Root::Constant:
+                for (std::uint32_t i = 0; i < constantNames().size(); ++i) {
+                    if (constantNames()[i] == reference.member) reference.index = i;
+                }
+                return;
+        }
+    };
+    const auto like = [&](SizeDeclaration& size) {
+        const std::string_view text = size.like;
+        if (text.starts_with("host.")) size.likeIndex = find(imports, text.substr(5));
+        if (text.starts_with("att.")) size.likeIndex = find(attachments, text.substr(4));
+    };
+    for (PassDeclaration& pass : tree.passes) {
+        pass.viewIndex = find(views, pass.view);
+        for (SlotDeclaration& slot : pass.slots) {
+            for (Reference& reference : slot.connect) resolve(reference);
+            if (slot.whenDisabled) resolve(*slot.whenDisabled);
+        }
+        for (OrderedAfter& after : pass.after) after.index = find(passes, after.pass);
+    }
+    for (ExportDeclaration& each : tree.exports) {
+        for (Reference& reference : each.from) resolve(reference);
+    }
+    for (AttachmentDeclaration& attachment : tree.attachments) {
+        attachment.viewIndex = find(views, attachment.layersView);
+        like(attachment.size);
+        like(attachment.bytes.pixels);
     }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include "description.hpp"
 
+#include <algorithm>
+
 namespace pelage::passes {
 namespace {
 
@@ -19,8 +21,17 @@ std::string didYouMean(std::string_view word, const std::vector<std::string>& kn
     return near.empty() ? std::move(otherwise) : "did you mean '" + std::string(near) + "'?";
 }
 
-std::string atPlace(Place place) {
-    return std::to_string(place.line) + ":" + std::to_string(place.column);
+std::string Reporter::at(Place place) const {
+    const std::size_t file = fileOf(place);
+    return (file > 0 && file < files_.size() ? files_[file] + ":" : std::string{}) + std::to_string(lineOf(place)) +
+           ":" + std::to_string(place.column);
+}
+
+void Reporter::add(Severity severity, Place place, std::string_view code, std::string text, std::string hint) {
+    const std::size_t file = std::min(fileOf(place), files_.size() - 1);
+    out_.add(
+        {severity, std::string(code), files_[file], lineOf(place), place.column, std::move(text), std::move(hint)});
+    errors_ += severity == Severity::Error ? 1 : 0;
 }
 
 const SlotDeclaration* PassDeclaration::slot(std::string_view word) const {

@@ -11,39 +11,56 @@ namespace pelage::passes {
 
 using json::Place;
 
-/// Reports into one list for one file.
+constexpr std::uint32_t none = ~0U;
+
+/// A tree may come from several files. Which one a place is in rides above the bits that a line of a file of at most
+/// 4 MiB needs, so that a place stays two numbers; only what shows it to people takes it apart.
+constexpr std::uint32_t lineBits = 24;
+inline Place inFile(Place place, std::size_t file) {
+    return {place.line | (static_cast<std::uint32_t>(file) << lineBits), place.column};
+}
+inline std::size_t fileOf(Place place) {
+    return place.line >> lineBits;
+}
+inline std::uint32_t lineOf(Place place) {
+    return place.line & ((1U << lineBits) - 1);
+}
+
+/// Reports into one list for the files of one tree.
 class Reporter {
 public:
-    Reporter(std::string file, Diagnostics& out) : file_(std::move(file)), out_(out) {}
+    Reporter(std::vector<std::string> files, Diagnostics& out) : files_(std::move(files)), out_(out) {}
+    Reporter(const std::string& file, Diagnostics& out) : files_{file}, out_(out) {}
     void error(Place place, std::string_view code, std::string text, std::string hint = {}) {
-        out_.add(
-            {Severity::Error, std::string(code), file_, place.line, place.column, std::move(text), std::move(hint)});
+        add(Severity::Error, place, code, std::move(text), std::move(hint));
     }
     void warning(Place place, std::string_view code, std::string text, std::string hint = {}) {
-        out_.add(
-            {Severity::Warning, std::string(code), file_, place.line, place.column, std::move(text), std::move(hint)});
+        add(Severity::Warning, place, code, std::move(text), std::move(hint));
     }
     bool failed() const { return out_.hasErrors(); }
-    std::size_t errors() const {
-        std::size_t count = 0;
-        for (const Diagnostic& each : out_.items()) count += each.severity == Severity::Error ? 1 : 0;
-        return count;
-    }
+    std::size_t errors() const { return errors_; }
+    /// "12:5", with the file when that is not the tree's own.
+    std::string at(Place place) const;
 
 private:
-    std::string file_;
+    void add(Severity severity, Place place, std::string_view code, std::string text, std::string hint);
+
+    std::vector<std::string> files_;
     Diagnostics& out_;
+    std::size_t errors_ = 0;
 };
 
 /// "did you mean 'x'?", or `otherwise` when no known name is near.
 std::string didYouMean(std::string_view word, const std::vector<std::string>& known, std::string otherwise = {});
-std::string atPlace(Place place);  // "12:5"
 
-/// `Pass.slot`, `host.Import`, `att.Attachment` or `const.name`.
+/// `Pass.slot`, `host.Import`, `att.Attachment`, `history.Attachment` or `const.name`.
 struct Reference {
-    enum class Root : std::uint8_t { Pass, Host, Attachment, Constant } root = Root::Pass;
+    enum class Root : std::uint8_t { Pass, Host, Attachment, History, Constant } root = Root::Pass;
     std::string owner = {}, member = {};  // "Resolve", "color"; for the other roots `member` is the name
     Place place = {};
+    /// Set once for all when the tree has been found without fault: the pass, import, attachment or constant that is
+    /// meant, and the slot of the pass. none: the file lacks it, and something else is taken instead.
+    std::uint32_t index = none, slot = none;
     std::string text() const { return owner + "." + member; }
 };
 
@@ -79,7 +96,17 @@ struct SizeDeclaration {
     enum class Kind : std::uint8_t { Frame, Like, Square, Fixed } kind = Kind::Frame;
     double scale = 1;  // Frame, Like
     std::string like = {};
+    std::uint32_t likeIndex = none;           // of the attachment or import
     NumberOrSetting width = {}, height = {};  // Square uses width
+    Place place = {};
+};
+
+/// Bytes of a buffer: a number, or so many for each pixel of the frame or of an image.
+struct BytesDeclaration {
+    NumberOrSetting count = {};
+    double times = 1;
+    bool perPixel = false;
+    SizeDeclaration pixels = {};
     Place place = {};
 };
 
@@ -90,6 +117,9 @@ struct AttachmentDeclaration {
     NumberOrSetting samples = {1};
     std::uint32_t layers = 1;
     std::string layersView = {};  // layers = number of these views
+    std::uint32_t viewIndex = none;
+    bool isBuffer = false, history = false;
+    BytesDeclaration bytes = {};
     Place place = {}, formatPlace = {}, layersPlace = {};
 };
 
@@ -98,6 +128,7 @@ struct SlotDeclaration {
     SlotAccess access = SlotAccess::Read;
     SlotUse use = SlotUse::Color;
     bool optional = false, dontCare = false, hasClear = false, blendPremultiplied = false, depthTestAlways = false;
+    bool clearIsZero = false;  // "clear": 0, of a buffer
     rhi::Color clear = {};
     enum class DepthClear : std::uint8_t { Far, Near, Number } depthClear = DepthClear::Far;
     bool clearIsDepth = false;
@@ -124,10 +155,20 @@ struct ShaderChoice {
 struct OrderedAfter {
     std::string pass = {};
     Place place = {};
+    std::uint32_t index = none;
+};
+
+struct ParameterDeclaration {
+    std::string name = {}, word = {};
+    ParameterInfo::Type type = ParameterInfo::Type::Number;
+    NumberOrSetting value = {};  // a bool as 0 or 1
+    Place place = {};            // of the value
+    Place namePlace = {};
 };
 
 struct PassDeclaration {
     std::string name = {}, view = {}, drawList = {};
+    std::string passClass = {};  // not empty: `kind` is the class's, known when the tree is compiled
     PassKind kind = PassKind::Raster;
     PlanPass::Sort sort = PlanPass::Sort::None;
     bool enabled = true, forEachLayer = false, sideEffects = false;
@@ -136,9 +177,12 @@ struct PassDeclaration {
     std::vector<SlotDeclaration> slots = {};
     std::vector<ConstantDeclaration> constants = {};
     std::vector<OrderedAfter> after = {};
+    std::vector<ParameterDeclaration> parameters = {};
+    std::uint32_t viewIndex = none;
     std::uint32_t dispatch[3] = {1, 1, 1}, threads[3] = {8, 8, 1};
-    std::string dispatchLike = {};
-    Place place = {}, namePlace = {}, viewPlace = {}, drawListPlace = {}, dispatchPlace = {};
+    std::string dispatchLike = {}, dispatchIndirect = {};
+    Place place = {}, namePlace = {}, viewPlace = {}, drawListPlace = {}, dispatchPlace = {}, indirectPlace = {},
+          classPlace = {};
 
     const SlotDeclaration* slot(std::string_view word) const;
     std::vector<std::string> slotNames() const;
@@ -157,7 +201,9 @@ struct DrawListDeclaration {
 };
 
 struct PassTree::Description {
-    std::string file = {}, name = {};
+    std::vector<std::string> files = {};   // by the number in a place; the tree's own first
+    std::vector<std::string> onDisk = {};  // those of them that are files
+    std::string name = {};
     std::vector<SettingDeclaration> settings = {};
     std::vector<SettingInfo> settingInfos = {};  // the same, as the public face gives them
     std::vector<ImportDeclaration> imports = {};

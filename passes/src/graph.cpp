@@ -4,36 +4,69 @@
 namespace pelage::passes {
 namespace {
 
-Checked<void> failure(const std::string& file, std::string_view code, const rhi::Error& error,
-                      const std::string& what) {
+Checked<void> failure(const PassTree& tree, const rhi::Error& error, const std::string& what) {
     Diagnostics out;
-    Reporter(file, out).error({}, code, what + ": " + rhi::toString(error));
+    Reporter(tree.file(), out).error({}, "D003", what + " of '" + tree.name() + "': " + rhi::toString(error));
     return tl::unexpected(std::move(out));
 }
 
-// One texture for each allocation of the plan.
-rhi::Result<void> makeTextures(Graph::State& state) {
-    std::vector<rhi::Texture> shared(state.plan.allocations);
+rhi::TextureDescriptor descriptorOf(const PlanResource& image) {
+    return {.label = image.name,
+            .size = image.extent,
+            .sampleCount = image.samples,
+            .format = image.format,
+            .usage = image.usage};
+}
+
+// A device may keep some format out of the heap's kind of memory; such an image has its own.
+rhi::Result<rhi::Texture> makeTexture(const rhi::Device& device, const PlanResource& image,
+                                      const rhi::TransientHeap& heap) {
+    rhi::TextureDescriptor descriptor = descriptorOf(image);
+    if (heap) {
+        descriptor.heap = heap;
+        descriptor.heapOffset = image.heapOffset;
+        device.pushErrorScope();
+        auto placed = device.createTexture(descriptor);
+        device.popErrorScope();
+        if (placed || placed.error().code != rhi::ErrorCode::FormatUnsupported) return placed;
+        descriptor.heap = {};
+        descriptor.heapOffset = 0;
+    }
+    return device.createTexture(descriptor);
+}
+
+// The images and buffers that the plan creates. Histories are made by makeHistories().
+rhi::Result<void> makeResources(Graph::State& state) {
+    rhi::TransientHeap heap;
+    if (state.plan.heapBytes > 0) {
+        auto made = state.device.createTransientHeap({.label = "transient images", .size = state.plan.heapBytes});
+        if (!made) return tl::unexpected(std::move(made.error()));
+        heap = std::move(*made);
+    }
     for (std::size_t i = 0; i < state.plan.resources.size(); ++i) {
-        const PlanResource& image = state.plan.resources[i];
-        if (image.kind == PlanResource::Kind::Constant) {
-            const auto found = state.fixtures->constants.find(image.name);
+        const PlanResource& resource = state.plan.resources[i];
+        if (resource.kind == PlanResource::Kind::Constant) {
+            const auto found = state.fixtures->constants.find(resource.name);
             if (found != state.fixtures->constants.end()) state.textures[i] = found->second;
         }
-        if (image.kind != PlanResource::Kind::Transient) continue;
-        rhi::Texture& texture = shared[image.allocation];
-        if (!texture) {
-            auto made = state.device.createTexture({.label = image.name,
-                                                    .size = image.extent,
-                                                    .sampleCount = image.samples,
-                                                    .format = image.format,
-                                                    .usage = image.usage});
+        if (resource.kind != PlanResource::Kind::Transient || resource.partner != ~0U) continue;
+        if (resource.isBuffer) {
+            auto made = state.device.createBuffer(
+                {.label = resource.name, .size = resource.bytes, .usage = resource.bufferUsage});
             if (!made) return tl::unexpected(std::move(made.error()));
-            texture = std::move(*made);
+            state.buffers[i] = std::move(*made);
+            continue;
         }
-        state.textures[i] = texture;
+        auto made = makeTexture(state.device, resource, heap);
+        if (!made) return tl::unexpected(std::move(made.error()));
+        state.textures[i] = std::move(*made);
     }
     return {};
+}
+
+// What the host says in words and numbers; its callbacks cannot be compared.
+bool same(const HostDescription& a, const HostDescription& b) {
+    return a.extent == b.extent && a.depth == b.depth && a.settings == b.settings && a.imports == b.imports;
 }
 
 }  // namespace
@@ -65,6 +98,7 @@ std::uint32_t Graph::State::layersOf(const PlanPass& pass) const {
 Graph::Graph(Descriptor descriptor) : descriptor_(std::move(descriptor)) {}
 
 Checked<void> Graph::build(const PassTree& tree, const HostDescription& host) {
+    if (state_ && state_->tree == tree.shared() && same(state_->host, host)) return {};
     HostDescription asked = host;
     if (!asked.supports) {
         asked.supports = [device = descriptor_.device](rhi::TextureFormat format, rhi::TextureUsage usage,
@@ -72,12 +106,21 @@ Checked<void> Graph::build(const PassTree& tree, const HostDescription& host) {
             return device.supports(format, usage, samples);
         };
     }
+    if (!asked.memory) {
+        asked.memory = [device = descriptor_.device](const PlanResource& image) {
+            const auto need = device.memoryRequirements(descriptorOf(image));
+            return need ? MemoryNeed{need->size, need->alignment} : MemoryNeed{image.bytes, 1};
+        };
+    }
+    if (asked.classes.empty()) asked.classes = descriptor_.classes.infos();
     Checked<Plan> plan = tree.compile(asked);
     if (!plan) return tl::unexpected(std::move(plan.error()));
 
     auto state = std::make_shared<State>();
     state->device = descriptor_.device;
     state->plan = std::move(*plan);
+    state->tree = tree.shared();
+    state->host = host;
     state->textures.resize(state->plan.resources.size());
     state->buffers.resize(state->plan.resources.size());
     state->passes.resize(state->plan.passes.size());
@@ -85,30 +128,30 @@ Checked<void> Graph::build(const PassTree& tree, const HostDescription& host) {
         state->fixtures = state_->fixtures;
     } else {
         auto fixtures = makeFixtures(state->device, host.depth);
-        if (!fixtures) return failure(tree.file(), "D003", fixtures.error(), "cannot make the samplers and stand-ins");
+        if (!fixtures) return failure(tree, fixtures.error(), "cannot make the samplers and stand-ins");
         state->fixtures = std::move(*fixtures);
     }
-    if (const auto made = makeTextures(*state); !made) {
-        return failure(tree.file(), "D003", made.error(), "cannot make the images of '" + tree.name() + "'");
-    }
+    auto made = makeResources(*state);
+    if (made) made = makeHistories(*state, state_.get());
+    if (!made) return failure(tree, made.error(), "cannot make the images and buffers");
     for (std::size_t i = 0; i < state->passes.size(); ++i) {
         state->passes[i].targets = targetsOf(state->plan, state->plan.passes[i]);
         state->passes[i].queries = {state->queryCount, state->layersOf(state->plan.passes[i])};
         state->queryCount += state->passes[i].queries.count;
     }
     if (descriptor_.measure) {
-        if (const auto made = makeQueries(*state); !made) {
-            return failure(tree.file(), "D003", made.error(), "cannot make the queries of '" + tree.name() + "'");
-        }
+        if (const auto queries = makeQueries(*state); !queries)
+            return failure(tree, queries.error(), "cannot make the queries");
     }
     Diagnostics out;
-    Reporter reporter(tree.file(), out);
-    makePipelines(*state, descriptor_.shaders, tree.description(), reporter);
+    Reporter reporter(tree.description().files, out);
+    makePipelines(*state, descriptor_.shaders, descriptor_.classes, tree.description(), reporter);
     if (out.hasErrors()) {
         out.sortByPlace();
         return tl::unexpected(std::move(out));
     }
     state_ = std::move(state);
+    ++plansMade_;
     return {};
 }
 
@@ -121,6 +164,12 @@ rhi::Texture Graph::exported(const std::string& name) const {
     if (!state_) return {};
     const auto found = state_->plan.exports.find(name);
     return found == state_->plan.exports.end() ? rhi::Texture{} : state_->textures[found->second];
+}
+
+rhi::Buffer Graph::exportedBuffer(const std::string& name) const {
+    if (!state_) return {};
+    const auto found = state_->plan.exports.find(name);
+    return found == state_->plan.exports.end() ? rhi::Buffer{} : state_->buffers[found->second];
 }
 
 }  // namespace pelage::passes

@@ -107,6 +107,20 @@ std::vector<const void*> lentTo(const Graph::State& state, const PlanPass& pass)
 
 }  // namespace
 
+rhi::Texture textureOf(const Graph::State& state, const PlanPass& pass, std::string_view name) {
+    for (const PlanSlot& slot : pass.slots) {
+        if (slot.name == name && slot.resource != ~0U) return state.textures[slot.resource];
+    }
+    return {};
+}
+
+rhi::Buffer bufferOf(const Graph::State& state, const PlanPass& pass, std::string_view name) {
+    for (const PlanSlot& slot : pass.slots) {
+        if (slot.name == name && slot.resource != ~0U) return state.buffers[slot.resource];
+    }
+    return {};
+}
+
 rhi::Error shaderError(std::string_view code, std::string text) {
     return {.kind = rhi::ErrorKind::Validation,
             .code = rhi::ErrorCode::BindingMismatch,
@@ -119,7 +133,8 @@ rhi::Result<rhi::BindGroup> bindGroupFor(Graph::State& state, std::size_t pass, 
             shaderError("S011", "pass '" + state.plan.passes[pass].name + "': empty bind group layout"));
     std::vector<const void*> lent = lentTo(state, state.plan.passes[pass]);
     auto& cache = state.passes[pass].groups;
-    const auto found = cache.find(layout.get());
+    const std::pair<const void*, std::uint32_t> key{layout.get(), turnOf(state, state.plan.passes[pass])};
+    const auto found = cache.find(key);
     if (found != cache.end() && found->second.lent == lent) return found->second.group;
 
     const Binder binder(state, pass);
@@ -131,7 +146,7 @@ rhi::Result<rhi::BindGroup> bindGroupFor(Graph::State& state, std::size_t pass, 
     }
     auto group = state.device.createBindGroup(descriptor);
     if (!group) return group;
-    cache[layout.get()] = {layout, std::move(lent), *group};
+    cache[key] = {layout, std::move(lent), *group};
     return group;
 }
 

@@ -11,13 +11,17 @@ constexpr std::uint32_t slotSet = 1;
 
 class PipelineMaker {
 public:
-    PipelineMaker(Graph::State& state, const ShaderSource& shaders, const PassTree::Description& tree,
-                  Reporter& reporter)
-        : state_(state), shaders_(shaders), tree_(tree), reporter_(reporter) {}
+    PipelineMaker(Graph::State& state, const ShaderSource& shaders, const PassClassRegistry& classes,
+                  const PassTree::Description& tree, Reporter& reporter)
+        : state_(state), shaders_(shaders), classes_(classes), tree_(tree), reporter_(reporter) {}
 
     void run() {
         for (std::size_t i = 0; i < state_.passes.size(); ++i) {
             const PlanPass& pass = state_.plan.passes[i];
+            if (!pass.passClass.empty()) {
+                recorder(pass, state_.passes[i]);
+                continue;
+            }
             if (pass.kind != PassKind::Fullscreen && pass.kind != PassKind::Compute) continue;
             const PassDeclaration* says = tree_.pass(pass.name);
             place_ = says ? says->shader.place : Place{};
@@ -32,6 +36,31 @@ public:
     }
 
 private:
+    void recorder(const PlanPass& pass, PassState& own) {
+        const PassDeclaration* says = tree_.pass(pass.name);
+        const Place place = says ? says->classPlace : Place{};
+        const PassClass* found = classes_.find(pass.passClass);
+        if (!found) {
+            // The host described a class to the linker that the graph's registry lacks.
+            reporter_.error(place, "P053", "pass '" + pass.name + "': unknown class '" + pass.passClass + "'",
+                            "register it in Graph::Descriptor::classes");
+            return;
+        }
+        auto made = found->create(PassSetup{.device = state_.device,
+                                            .plan = state_.plan,
+                                            .pass = pass,
+                                            .targets = own.targets,
+                                            .parameters = PassParameters(pass.parameters),
+                                            .shaders = shaders_});
+        if (made && *made) {
+            own.recorder = std::move(*made);
+            return;
+        }
+        reporter_.error(place, "S004",
+                        "class '" + pass.passClass + "' cannot make pass '" + pass.name +
+                            "': " + (made ? std::string("it gave no recorder") : rhi::toString(made.error())));
+    }
+
     std::optional<rhi::ShaderModule> module(const std::string& file, const PlanPass& pass) {
         if (!shaders_) {
             reporter_.error(place_, "S001", "no source of shaders was given for '" + file + "'");
@@ -169,6 +198,7 @@ private:
 
     Graph::State& state_;
     const ShaderSource& shaders_;
+    const PassClassRegistry& classes_;
     const PassTree::Description& tree_;
     Reporter& reporter_;
     Place place_ = {};
@@ -177,9 +207,9 @@ private:
 
 }  // namespace
 
-void makePipelines(Graph::State& state, const ShaderSource& shaders, const PassTree::Description& tree,
-                   Reporter& reporter) {
-    PipelineMaker(state, shaders, tree, reporter).run();
+void makePipelines(Graph::State& state, const ShaderSource& shaders, const PassClassRegistry& classes,
+                   const PassTree::Description& tree, Reporter& reporter) {
+    PipelineMaker(state, shaders, classes, tree, reporter).run();
 }
 
 }  // namespace pelage::passes

@@ -32,12 +32,10 @@ public:
             const rhi::Texture& texture = found->second;
             const rhi::Extent3D size = texture.size();
             if (texture.format() != resource.format || texture.sampleCount() != resource.samples ||
-                size.width != resource.extent.width || size.height != resource.extent.height) {
-                return fault("H002: the image '" + name + "' is " + std::to_string(size.width) + " x " +
-                             std::to_string(size.height) + " " + std::string(rhi::name(texture.format())) +
-                             ", the plan was made for " + std::to_string(resource.extent.width) + " x " +
-                             std::to_string(resource.extent.height) + " " + std::string(rhi::name(resource.format)) +
-                             "; build the graph again");
+                size != resource.extent) {
+                return fault("H002: the image '" + name + "' is " +
+                             shape(size, texture.format(), texture.sampleCount()) + ", the plan was made for " +
+                             shape(resource.extent, resource.format, resource.samples) + "; build the graph again");
             }
             state_.textures[i] = texture;
         }
@@ -50,6 +48,10 @@ public:
         PassState& own = state_.passes[index];
         own.draws = 0;
         rhi::Result<void> done = {};
+        for (const PlanSlot& slot : pass.slots) {
+            if (slot.resource == ~0U || slot.load != rhi::LoadOp::Clear) continue;
+            if (state_.plan.resources[slot.resource].isBuffer) encoder_.clearBuffer(state_.buffers[slot.resource]);
+        }
         switch (pass.kind) {
             case PassKind::Raster:
             case PassKind::Fullscreen:
@@ -59,7 +61,7 @@ public:
                 done = compute(index);
                 break;
             case PassKind::Copy:
-                copy(pass, own);
+                done = copy(index);
                 break;
         }
         own.cpuMilliseconds = std::chrono::duration<double, std::milli>(Clock::now() - begin).count();
@@ -69,6 +71,32 @@ public:
 private:
     static tl::unexpected<rhi::Error> fault(std::string text) {
         return tl::unexpected(rhi::Error{.code = rhi::ErrorCode::InvalidHandle, .message = std::move(text)});
+    }
+
+    static std::string shape(const rhi::Extent3D& size, rhi::TextureFormat format, std::uint32_t samples) {
+        return std::to_string(size.width) + " x " + std::to_string(size.height) +
+               (size.depthOrArrayLayers > 1 ? " x " + std::to_string(size.depthOrArrayLayers) : "") + " " +
+               std::string(rhi::name(format)) + (samples > 1 ? ", " + std::to_string(samples) + " samples" : "");
+    }
+
+    PassContext context(std::size_t index) {
+        const PlanPass& pass = state_.plan.passes[index];
+        PassContext made{.pass = pass,
+                         .parameters = PassParameters(pass.parameters),
+                         .targets = state_.passes[index].targets,
+                         .extent = state_.plan.extent};
+        made.bindGroup = [this, index](const rhi::BindGroupLayout& layout) {
+            return bindGroupFor(state_, index, layout);
+        };
+        made.texture = [this, &pass](std::string_view slot) { return textureOf(state_, pass, slot); };
+        made.buffer = [this, &pass](std::string_view slot) { return bufferOf(state_, pass, slot); };
+        return made;
+    }
+
+    rhi::Result<void> byClass(std::size_t index, PassContext& context) {
+        const rhi::Result<void> done = state_.passes[index].recorder(context);
+        state_.passes[index].draws += context.draws;
+        return done;
     }
 
     std::optional<rhi::TimestampWrites> timestamps(std::uint32_t query) const {
@@ -111,8 +139,17 @@ private:
         }
         extent.depthOrArrayLayers = 1;
         rhi::RenderPassEncoder recording = encoder_.beginRenderPass(descriptor);
-        const rhi::Result<void> done =
-            pass.kind == PassKind::Raster ? raster(index, layer, extent, recording) : fullscreen(index, recording);
+        rhi::Result<void> done = {};
+        if (own.recorder) {
+            PassContext given = context(index);
+            given.extent = extent;
+            given.viewIndex = layer;
+            given.raster = &recording;
+            done = byClass(index, given);
+        } else {
+            done =
+                pass.kind == PassKind::Raster ? raster(index, layer, extent, recording) : fullscreen(index, recording);
+        }
         recording.end();
         return done;
     }
@@ -120,14 +157,16 @@ private:
     rhi::Result<void> raster(std::size_t index, std::uint32_t layer, const rhi::Extent3D& extent,
                              rhi::RenderPassEncoder& recording) {
         if (!draws_) return {};
-        RasterContext context{.pass = state_.plan.passes[index],
-                              .viewIndex = layer,
-                              .extent = extent,
-                              .targets = state_.passes[index].targets,
-                              .encoder = recording,
-                              .bindGroup = [this, index](const rhi::BindGroupLayout& layout) {
-                                  return bindGroupFor(state_, index, layout);
-                              }};
+        RasterContext context{
+            .pass = state_.plan.passes[index],
+            .viewIndex = layer,
+            .extent = extent,
+            .targets = state_.passes[index].targets,
+            .encoder = recording,
+            .bindGroup = [this,
+                          index](const rhi::BindGroupLayout& layout) { return bindGroupFor(state_, index, layout); },
+            .buffer = [this,
+                       index](std::string_view slot) { return bufferOf(state_, state_.plan.passes[index], slot); }};
         const rhi::Result<void> done = draws_(context);
         state_.passes[index].draws += context.draws;
         return done;
@@ -149,6 +188,15 @@ private:
     rhi::Result<void> compute(std::size_t index) {
         const PlanPass& pass = state_.plan.passes[index];
         PassState& own = state_.passes[index];
+        if (own.recorder) {
+            PassContext given = context(index);
+            rhi::ComputePassEncoder recording =
+                encoder_.beginComputePass({.label = pass.name, .timestampWrites = timestamps(own.queries.first)});
+            given.compute = &recording;
+            const rhi::Result<void> done = byClass(index, given);
+            recording.end();
+            return done;
+        }
         rhi::BindGroup group;
         if (own.layout) {
             auto made = bindGroupFor(state_, index, own.layout);
@@ -159,23 +207,50 @@ private:
             encoder_.beginComputePass({.label = pass.name, .timestampWrites = timestamps(own.queries.first)});
         recording.setPipeline(own.compute);
         if (group) recording.setBindGroup(1, group);
-        recording.dispatchWorkgroups(pass.dispatch[0], pass.dispatch[1], pass.dispatch[2]);
+        const std::uint32_t counts = pass.indirect < pass.slots.size() ? pass.slots[pass.indirect].resource : ~0U;
+        if (counts != ~0U) {
+            recording.dispatchWorkgroupsIndirect(state_.buffers[counts]);
+        } else if (pass.indirect == ~0U) {
+            recording.dispatchWorkgroups(pass.dispatch[0], pass.dispatch[1], pass.dispatch[2]);
+        }
         recording.end();
         own.draws += 1;
         return {};
     }
 
-    void copy(const PlanPass& pass, const PassState& own) {
+    rhi::Result<void> copy(std::size_t index) {
+        const PassState& own = state_.passes[index];
+        if (state_.timestamps) encoder_.writeTimestamp(state_.timestamps, 2 * own.queries.first);
+        const rhi::Result<void> done = copies(index);
+        if (state_.timestamps) encoder_.writeTimestamp(state_.timestamps, 2 * own.queries.first + 1);
+        return done;
+    }
+
+    rhi::Result<void> copies(std::size_t index) {
+        if (state_.passes[index].recorder) {
+            PassContext given = context(index);
+            given.copy = &encoder_;
+            return byClass(index, given);
+        }
         const PlanSlot* from = nullptr;
         const PlanSlot* to = nullptr;
-        for (const PlanSlot& slot : pass.slots) (slot.access == SlotAccess::Read ? from : to) = &slot;
-        if (state_.timestamps) encoder_.writeTimestamp(state_.timestamps, 2 * own.queries.first);
-        if (from && to && from->resource != ~0U && to->resource != ~0U) {
+        for (const PlanSlot& slot : state_.plan.passes[index].slots)
+            (slot.access == SlotAccess::Read ? from : to) = &slot;
+        if (!from || !to || from->resource == ~0U || to->resource == ~0U) return {};
+        const PlanResource& source = state_.plan.resources[from->resource];
+        if (!source.isBuffer) {
             encoder_.copyTextureToTexture({.texture = state_.textures[from->resource]},
-                                          {.texture = state_.textures[to->resource]},
-                                          state_.plan.resources[from->resource].extent);
+                                          {.texture = state_.textures[to->resource]}, source.extent);
+            return {};
         }
-        if (state_.timestamps) encoder_.writeTimestamp(state_.timestamps, 2 * own.queries.first + 1);
+        const rhi::Buffer& a = state_.buffers[from->resource];
+        const rhi::Buffer& b = state_.buffers[to->resource];
+        if (a.size() != b.size()) {
+            return fault("H002: pass '" + state_.plan.passes[index].name + "' copies " + std::to_string(a.size()) +
+                         " bytes into a buffer of " + std::to_string(b.size()));
+        }
+        encoder_.copyBufferToBuffer(a, 0, b, 0, a.size());
+        return {};
     }
 
     Graph::State& state_;
@@ -193,6 +268,10 @@ rhi::Result<void> Graph::record(rhi::CommandEncoder& encoder, const FrameImports
     Recorder recorder(*state_, encoder, draws);
     if (auto lent = recorder.lend(imports); !lent) return lent;
     encoder.pushDebugGroup("passes");
+    if (auto begun = beginHistories(*state_, encoder); !begun) {
+        encoder.popDebugGroup();
+        return begun;
+    }
     for (std::size_t i = 0; i < state_->passes.size(); ++i) {
         if (auto done = recorder.pass(i); !done) {
             encoder.popDebugGroup();
@@ -201,6 +280,7 @@ rhi::Result<void> Graph::record(rhi::CommandEncoder& encoder, const FrameImports
     }
     resolveQueries(*state_, encoder);
     encoder.popDebugGroup();
+    endHistories(*state_);
     state_->recorded = true;
     return {};
 }

@@ -6,6 +6,8 @@
 
 #include <pelage/passes/graph.hpp>
 
+#include <array>
+
 namespace pelage::passes {
 
 /// Samplers by their names in shaders and the 1 x 1 images behind const.*.
@@ -27,6 +29,16 @@ struct CachedGroup {
     rhi::BindGroup group = {};
 };
 
+/// A pair that takes turns: `textures` or `buffers` of this frame at `turn`, of the last at the other. Indices are into
+/// Plan::resources.
+struct History {
+    std::uint32_t last = ~0U, current = ~0U;
+    std::uint32_t turn = 0;
+    bool begun = false;  // the last frame's has been cleared or written
+    std::array<rhi::Texture, 2> textures = {};
+    std::array<rhi::Buffer, 2> buffers = {};
+};
+
 struct PassState {
     Targets targets = {};
     rhi::RenderPipeline pipeline = {};  // Fullscreen
@@ -35,15 +47,20 @@ struct PassState {
     PassQueries queries = {};
     double cpuMilliseconds = 0;
     std::uint32_t draws = 0;
-    std::map<const void*, CachedGroup> groups = {};  // by layout
+    std::map<std::pair<const void*, std::uint32_t>, CachedGroup> groups = {};  // by layout and turn of the histories
+    PassRecorder recorder = {};                                                // of a class
 };
 
 struct Graph::State {
     rhi::Device device = {};
     Plan plan = {};
+    // What the plan was made from; the description is held, so that its address stays its own.
+    std::shared_ptr<const PassTree::Description> tree = {};
+    HostDescription host = {};
     std::shared_ptr<const Fixtures> fixtures = {};
     std::vector<rhi::Texture> textures = {};  // by resource; imports are set by record()
-    std::vector<rhi::Buffer> buffers = {};    // by resource; imports only
+    std::vector<rhi::Buffer> buffers = {};    // by resource; imports are set by record()
+    std::vector<History> histories = {};
     std::vector<PassState> passes = {};
 
     rhi::QuerySet timestamps = {}, statistics = {};
@@ -54,15 +71,27 @@ struct Graph::State {
     std::uint32_t layersOf(const PlanPass& pass) const;
 };
 
+/// The pairs of the plan's histories; those of `before` that are of the same shape are taken over.
+rhi::Result<void> makeHistories(Graph::State& state, const Graph::State* before);
+void takeTurns(Graph::State& state);
+rhi::Result<void> beginHistories(Graph::State& state, rhi::CommandEncoder& encoder);
+void endHistories(Graph::State& state);
+/// Which of a pair is written now, for passes that use one; 0 for the others.
+std::uint32_t turnOf(const Graph::State& state, const PlanPass& pass);
+
+/// The image or buffer of a slot by its name.
+rhi::Texture textureOf(const Graph::State& state, const PlanPass& pass, std::string_view slot);
+rhi::Buffer bufferOf(const Graph::State& state, const PlanPass& pass, std::string_view slot);
+
 /// Names a fault of a pass's shader: "S010", "S011", … in front of the sentence.
 rhi::Error shaderError(std::string_view code, std::string text);
 
 /// The group of set 1 for this layout: slots and samplers by the names of the shader's resources.
 rhi::Result<rhi::BindGroup> bindGroupFor(Graph::State& state, std::size_t pass, const rhi::BindGroupLayout& layout);
 
-/// Pipelines of fullscreen and compute passes; everything wrong at once.
-void makePipelines(Graph::State& state, const ShaderSource& shaders, const PassTree::Description& tree,
-                   Reporter& reporter);
+/// Pipelines of fullscreen and compute passes and the recorders of classes; everything wrong at once.
+void makePipelines(Graph::State& state, const ShaderSource& shaders, const PassClassRegistry& classes,
+                   const PassTree::Description& tree, Reporter& reporter);
 
 rhi::Result<void> makeQueries(Graph::State& state);
 /// Copies the queries of a frame to where the host can read them.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The last phase: passes and images as the plan shows them, with load and store, lifetimes and shared memory.
+// Passes and images as the plan shows them, with load and store and lifetimes.
 #include "link.hpp"
 
 #include <algorithm>
@@ -19,21 +19,25 @@ public:
     explicit Finisher(Linker& linker) : linker_(linker), plan_(linker.plan) {}
 
     void run() {
-        for (const LinkedResource& resource : linker_.resources) {
+        for (LinkedResource& resource : linker_.resources) {
             if (resource.index == none) continue;
             PlanResource& image = plan_.resources[resource.index];
-            image = resource.plan;
+            image = std::move(resource.plan);
             image.firstPass = none;
-            image.bytes = image.isBuffer ? 0 : bytesOf(image);
+            if (!image.isBuffer) image.bytes = bytesOf(image);
         }
+        plan_.passes.reserve(linker_.order.size());
         for (const std::uint32_t index : linker_.order) pass(linker_.passes[index]);
-        for (const auto& [name, version] : linker_.exportVersions) {
+        exported_.assign(plan_.resources.size(), false);
+        for (std::size_t i = 0; i < linker_.exportVersions.size(); ++i) {
+            const std::uint32_t version = linker_.exportVersions[i];
+            if (version == none) continue;
             const std::uint32_t index = linker_.resources[linker_.versions[version].resource].index;
-            plan_.exports[name] = index;
+            plan_.exports[linker_.tree.exports[i].name] = index;
             plan_.resources[index].lastPass = lastPass();
+            exported_[index] = true;
         }
         stores();
-        share();
     }
 
 private:
@@ -41,22 +45,29 @@ private:
 
     void pass(const LinkedPass& linked) {
         const PassDeclaration& says = *linked.says;
-        PlanPass made{.name = says.name, .drawList = says.drawList, .view = says.view, .kind = says.kind};
+        PlanPass made{.name = says.name, .drawList = says.drawList, .view = says.view, .kind = linked.kind};
+        made.passClass = says.passClass;
         made.forEachLayer = says.forEachLayer;
         made.sort = says.sort;
         const bool first = !says.shader.when || says.shader.when->evaluate(linker_.conditions);
         made.shader = first ? says.shader.file : says.shader.otherwise;
+        if (linked.info) made.parameters = linker_.parametersOf(linked);
         for (const ConstantDeclaration& constant : says.constants)
             made.constants[constant.name] = linker_.constant(constant.value);
         std::copy(std::begin(says.dispatch), std::end(says.dispatch), std::begin(made.dispatch));
         const auto passIndex = static_cast<std::uint32_t>(plan_.passes.size());
-        for (const LinkedSlot& linkedSlot : linked.slots) {
+        made.slots.reserve(linked.slotCount);
+        for (const LinkedSlot& linkedSlot : linker_.slotsOf(linked)) {
+            ++linker_.visits;
+            if (!says.dispatchIndirect.empty() && linkedSlot.says->name == says.dispatchIndirect)
+                made.indirect = static_cast<std::uint32_t>(made.slots.size());
             made.slots.push_back(slot(linkedSlot));
-            const std::uint32_t at = made.slots.back().resource;
-            if (at == none) continue;
-            PlanResource& image = plan_.resources[at];
+            const PlanSlot& own = made.slots.back();
+            if (own.resource == none) continue;
+            PlanResource& image = plan_.resources[own.resource];
             image.firstPass = std::min(image.firstPass, passIndex);
             image.lastPass = passIndex;
+            if (own.makes != none) image.versions = std::max(image.versions, own.makes + 1);
             if (linkedSlot.says->name == says.dispatchLike) {
                 const std::uint32_t sides[3] = {image.extent.width, image.extent.height, image.layers};
                 for (std::size_t i = 0; i < 3; ++i)
@@ -72,84 +83,67 @@ private:
         made.blendPremultiplied = says.blendPremultiplied;
         made.depthTestAlways = says.depthTestAlways;
         made.clear = says.clear;
-        const float far = plan_.depth == DepthConvention::Reversed ? 0.0F : 1.0F;
-        using Depth = SlotDeclaration::DepthClear;
-        made.clearDepth = says.depthClear == Depth::Far    ? far
-                          : says.depthClear == Depth::Near ? 1.0F - far
-                                                           : says.depthValue;
+        made.clearDepth = depthOf(says, plan_.depth);
         if (linked.in == none) return made;
         const Version& version = linker_.versions[linked.in];
         made.resource = linker_.resources[version.resource].index;
+        if (version.producer != none) made.producer = linker_.passes[version.producer].place;
+        if (linked.out != none) made.makes = linker_.versions[linked.out].number;
         // An image of ours that nobody has written begins here; a lent one has what the host put into it.
         const bool begins = version.number == 0 && plan_.resources[made.resource].kind == PlanResource::Kind::Transient;
         if (says.access == SlotAccess::Write || (says.access == SlotAccess::ReadWrite && begins)) {
             made.load = says.hasClear ? rhi::LoadOp::Clear : rhi::LoadOp::DontCare;
+        } else {
+            made.reads = version.number;
         }
         return made;
     }
 
-    // What no later pass and no export looks at need not leave the tile.
+    // What no later pass, no export and no next frame looks at need not leave the tile.
     void stores() {
         for (std::uint32_t index = 0; index < plan_.passes.size(); ++index) {
             for (PlanSlot& slot : plan_.passes[index].slots) {
                 if (slot.resource == none || slot.access == SlotAccess::Read) continue;
                 const PlanResource& image = plan_.resources[slot.resource];
-                const bool seen =
-                    image.lastPass > index || image.kind == PlanResource::Kind::Import || isExported(slot.resource);
+                const bool seen = image.lastPass > index || image.kind == PlanResource::Kind::Import ||
+                                  image.partner != none || exported_[slot.resource];
                 slot.store = seen ? rhi::StoreOp::Store : rhi::StoreOp::Discard;
             }
         }
     }
 
-    bool isExported(std::uint32_t resource) const {
-        return std::any_of(plan_.exports.begin(), plan_.exports.end(),
-                           [&](const auto& each) { return each.second == resource; });
-    }
-
-    // Whole textures are shared between images of one shape whose lifetimes do not overlap. An export is read after the
-    // frame, so its texture is its own.
-    void share() {
-        struct Allocation {
-            const PlanResource* shape;
-            std::uint32_t lastPass;
-            bool open;
-            std::vector<std::uint32_t> users;
-        };
-        std::vector<Allocation> pool;
-        for (std::uint32_t i = 0; i < plan_.resources.size(); ++i) {
-            PlanResource& image = plan_.resources[i];
-            if (image.kind != PlanResource::Kind::Transient) continue;
-            const bool open = !isExported(i);
-            const auto fits = [&](const Allocation& each) {
-                return open && each.open && each.lastPass < image.firstPass && each.shape->format == image.format &&
-                       each.shape->extent == image.extent && each.shape->samples == image.samples;
-            };
-            auto found = std::find_if(pool.begin(), pool.end(), fits);
-            if (found == pool.end()) {
-                pool.push_back({&image, 0, open, {}});
-                found = pool.end() - 1;
-                plan_.allocatedBytes += image.bytes;
-            }
-            found->lastPass = image.lastPass;
-            found->users.push_back(i);
-            image.allocation = static_cast<std::uint32_t>(found - pool.begin());
-        }
-        plan_.allocations = static_cast<std::uint32_t>(pool.size());
-        for (const Allocation& each : pool) {
-            rhi::TextureUsage usage = rhi::TextureUsage::None;
-            for (const std::uint32_t user : each.users) usage = usage | plan_.resources[user].usage;
-            for (const std::uint32_t user : each.users) plan_.resources[user].usage = usage;
-        }
-    }
-
     Linker& linker_;
     Plan& plan_;
+    std::vector<bool> exported_ = {};
 };
 
 }  // namespace
 
+float depthOf(const SlotDeclaration& slot, DepthConvention convention) {
+    using Depth = SlotDeclaration::DepthClear;
+    const float far = convention == DepthConvention::Reversed ? 0.0F : 1.0F;
+    return slot.depthClear == Depth::Far ? far : slot.depthClear == Depth::Near ? 1.0F - far : slot.depthValue;
+}
+
 void Linker::finish() {
     Finisher(*this).run();
+    place();
+}
+
+Linked link(const PassTree::Description& tree, const HostDescription& host, const LinkOptions& options) {
+    Diagnostics out;
+    Reporter reporter(tree.files, out);
+    Linker linker{.tree = tree, .host = host, .options = options, .reporter = reporter};
+    linker.evaluateConditions();
+    linker.findClasses();
+    if (!out.hasErrors()) linker.resolveReferences();
+    if (!out.hasErrors()) linker.schedule();
+    if (!out.hasErrors()) linker.describeImages();
+    if (!out.hasErrors()) linker.finish();
+    out.sortByPlace();
+    if (out.hasErrors()) return {tl::unexpected(std::move(out)), linker.visits};
+    linker.plan.warnings = std::move(out);
+    return {std::move(linker.plan), linker.visits};
 }
 
 }  // namespace pelage::passes

@@ -83,38 +83,31 @@ void Linker::evaluateConditions() {
                              didYouMean(name, namesOf(tree.imports)));
         }
     }
-    for (const ViewDeclaration& view : tree.views) plan.viewCounts[view.name] = wholeNumber(number(view.count));
+    for (const ViewDeclaration& view : tree.views) {
+        viewCounts.push_back(wholeNumber(number(view.count)));
+        plan.viewCounts[view.name] = viewCounts.back();
+    }
     plan.depth = host.depth;
+    plan.extent = host.extent;
 
+    passes.reserve(tree.passes.size());
     for (const PassDeclaration& says : tree.passes) {
-        LinkedPass pass{.says = &says};
-        for (const SlotDeclaration& slot : says.slots) pass.slots.push_back({.says = &slot});
-        if (!says.enabled) {
-            pass.enabled = false;
-            pass.whyOff = "\"enabled\" is false";
-        } else if (says.enabledWhen && !says.enabledWhen->evaluate(conditions)) {
-            pass.enabled = false;
-            pass.whyOff = "not (" + says.enabledWhen->text() + ")";
-        } else if (says.forEachLayer && plan.viewCounts[says.view] == 0) {
-            pass.enabled = false;
-            pass.whyOff = "there is no view '" + says.view + "'";
-        }
-        passes.push_back(std::move(pass));
+        ++visits;
+        LinkedPass pass{.says = &says, .kind = says.kind};
+        pass.firstSlot = static_cast<std::uint32_t>(slots.size());
+        pass.slotCount = static_cast<std::uint32_t>(says.slots.size());
+        for (const SlotDeclaration& slot : says.slots) slots.push_back({.says = &slot});
+        pass.enabled = says.enabled && (!says.enabledWhen || says.enabledWhen->evaluate(conditions)) &&
+                       !(says.forEachLayer && says.viewIndex != none && viewCounts[says.viewIndex] == 0);
+        passes.push_back(pass);
     }
 }
 
-LinkedPass* Linker::passNamed(std::string_view name) {
-    for (LinkedPass& pass : passes) {
-        if (pass.says->name == name) return &pass;
-    }
-    return nullptr;
-}
-
-const LinkedSlot* Linker::slotOf(const LinkedPass& pass, std::string_view name) const {
-    for (const LinkedSlot& slot : pass.slots) {
-        if (slot.says->name == name) return &slot;
-    }
-    return nullptr;
+std::string Linker::whyOff(const LinkedPass& pass) const {
+    const PassDeclaration& says = *pass.says;
+    if (!says.enabled) return "\"enabled\" is false";
+    if (says.enabledWhen && !says.enabledWhen->evaluate(conditions)) return "not (" + says.enabledWhen->text() + ")";
+    return "there is no view '" + says.view + "'";
 }
 
 }  // namespace pelage::passes

@@ -25,9 +25,29 @@ rhi::TextureUsage usageOf(const SlotDeclaration& slot) {
         case SlotUse::Copy:
             return slot.access == SlotAccess::Read ? rhi::TextureUsage::CopySrc : rhi::TextureUsage::CopyDst;
         case SlotUse::Uniform:
+        case SlotUse::Vertex:
+        case SlotUse::Indirect:
             break;
     }
     return rhi::TextureUsage::None;
+}
+
+rhi::BufferUsage bufferUsageOf(const SlotDeclaration& slot) {
+    const rhi::BufferUsage cleared = slot.clearIsZero ? rhi::BufferUsage::CopyDst : rhi::BufferUsage::None;
+    switch (slot.use) {
+        case SlotUse::Storage:
+            return cleared | rhi::BufferUsage::Storage;
+        case SlotUse::Uniform:
+            return rhi::BufferUsage::Uniform;
+        case SlotUse::Copy:
+            return slot.access == SlotAccess::Read ? rhi::BufferUsage::CopySrc : rhi::BufferUsage::CopyDst;
+        case SlotUse::Vertex:
+            return rhi::BufferUsage::Vertex;
+        case SlotUse::Indirect:
+            return rhi::BufferUsage::Indirect;
+        default:
+            return rhi::BufferUsage::None;
+    }
 }
 
 std::string text(const rhi::Extent3D& extent) {
@@ -40,15 +60,19 @@ public:
 
     void run() {
         for (const std::uint32_t index : linker_.order) {
-            for (const LinkedSlot& slot : linker_.passes[index].slots) {
-                if (slot.in != none) use(linker_.resources[linker_.versions[slot.in].resource], slot);
+            for (const LinkedSlot& slot : linker_.slotsOf(linker_.passes[index])) {
+                ++linker_.visits;
+                if (slot.in != none) use(linker_.resourceOf(slot), slot);
             }
         }
-        for (const auto& [name, version] : linker_.exportVersions) {
+        for (const std::uint32_t version : linker_.exportVersions) {
+            if (version == none) continue;
             PlanResource& image = linker_.resources[linker_.versions[version].resource].plan;
             image.usage = image.usage | rhi::TextureUsage::TextureBinding;
+            image.bufferUsage = image.bufferUsage | rhi::BufferUsage::CopySrc;
             if (image.samples == 1) image.usage = image.usage | rhi::TextureUsage::CopySrc;
         }
+        joinHistories();
         for (LinkedResource& resource : linker_.resources) chooseFormat(resource);
         for (const std::uint32_t index : linker_.order) passFits(linker_.passes[index]);
     }
@@ -63,6 +87,41 @@ private:
             if (!resource.attachment && !resource.import) constant(resource.plan);
         }
         resource.plan.usage = resource.plan.usage | usageOf(*slot.says);
+        resource.plan.bufferUsage = resource.plan.bufferUsage | bufferUsageOf(*slot.says);
+    }
+
+    // Both images of a pair take turns, so what one is used for the other is too. The first frame clears what it reads.
+    void joinHistories() {
+        for (LinkedResource& history : linker_.resources) {
+            if (history.plan.kind != PlanResource::Kind::History || history.index == none) continue;
+            PlanResource& last = history.plan;
+            const auto attachment = static_cast<std::size_t>(history.attachment - linker_.tree.attachments.data());
+            const std::uint32_t at = linker_.ofAttachment[attachment];
+            LinkedResource* written = at == none ? nullptr : &linker_.resources[at];
+            if (written && written->index == none) written = nullptr;
+            if (written) {
+                last.partner = written->index;
+                written->plan.partner = history.index;
+                last.usage = last.usage | written->plan.usage;
+                last.bufferUsage = last.bufferUsage | written->plan.bufferUsage;
+            }
+            last.usage = last.usage | rhi::TextureUsage::RenderAttachment;
+            last.bufferUsage = last.bufferUsage | rhi::BufferUsage::CopyDst;
+            const SlotDeclaration* begins = written ? beginner(*written) : nullptr;
+            if (begins && begins->hasClear && !begins->clearIsDepth) last.historyClear = begins->clear;
+            const float far = linker_.host.depth == DepthConvention::Reversed ? 0.0F : 1.0F;
+            if (!last.isBuffer && rhi::isDepth(last.format))
+                last.historyClear.r = begins && begins->clearIsDepth ? depthOf(*begins, linker_.host.depth) : far;
+            if (!written) continue;
+            written->plan.usage = last.usage;
+            written->plan.bufferUsage = last.bufferUsage;
+        }
+    }
+
+    const SlotDeclaration* beginner(const LinkedResource& resource) const {
+        const Version& version = linker_.versions[resource.base];
+        if (version.modifier == none) return nullptr;
+        return linker_.slots[linker_.passes[version.modifier].firstSlot + version.modifierSlot].says;
     }
 
     static void constant(PlanResource& image) {
@@ -103,9 +162,10 @@ private:
     void attachment(LinkedResource& resource) {
         const AttachmentDeclaration& says = *resource.attachment;
         PlanResource& image = resource.plan;
+        if (says.isBuffer) return buffer(resource);
         image.format = says.formats.front();
         image.samples = static_cast<std::uint32_t>(linker_.number(says.samples));
-        image.layers = says.layersView.empty() ? says.layers : std::max(1U, linker_.plan.viewCounts[says.layersView]);
+        image.layers = says.layersView.empty() ? says.layers : std::max(1U, linker_.viewCounts[says.viewIndex]);
         const auto [width, height] = size(says.size);
         if (width < 1 || height < 1 || width > largestSide || height > largestSide) {
             if (!sizeFailed_) {
@@ -122,6 +182,28 @@ private:
                 says.layersPlace, "D002",
                 "'" + image.name + "' would have " + std::to_string(image.layers) + " layers; at most 256");
         }
+    }
+
+    void buffer(LinkedResource& resource) {
+        const BytesDeclaration& says = resource.attachment->bytes;
+        double bytes = linker_.number(says.count) * says.times;
+        if (says.perPixel) {
+            const auto [width, height] = size(says.pixels);
+            bytes *= static_cast<double>(width) * static_cast<double>(height);
+        }
+        bytes = std::ceil(bytes / 16) * 16;
+        constexpr double most = 4294967296.0;
+        if (bytes < 1 || bytes > most) {
+            if (!sizeFailed_) {
+                linker_.reporter.error(says.place, "D002",
+                                       "'" + resource.plan.name + "' would have " +
+                                           std::to_string(static_cast<long long>(bytes)) +
+                                           " bytes; a buffer has 1..4294967296");
+            }
+            sizeFailed_ = false;
+            return;
+        }
+        resource.plan.bytes = static_cast<std::uint64_t>(bytes);
     }
 
     using Sides = std::pair<std::uint64_t, std::uint64_t>;
@@ -145,7 +227,7 @@ private:
                 break;
         }
         if (says.like.rfind("host.", 0) == 0) {
-            const auto lent = linker_.host.imports.find(says.like.substr(5));
+            const auto lent = linker_.host.imports.find(linker_.tree.imports[says.likeIndex].name);
             if (lent == linker_.host.imports.end() || !lent->second.present) {
                 linker_.reporter.error(says.place, "P031",
                                        "a size follows '" + says.like + "', which the host does not lend");
@@ -154,15 +236,13 @@ private:
             }
             return scaled(lent->second.extent.width, lent->second.extent.height, says.scale);
         }
-        const AttachmentDeclaration* other = linker_.tree.attachment(says.like.substr(4));
-        if (!other) return {0, 0};
-        const auto [width, height] = size(other->size);
+        const auto [width, height] = size(linker_.tree.attachments[says.likeIndex].size);
         if (std::max(width, height) > largestSide) return {width, height};
         return scaled(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), says.scale);
     }
 
     void chooseFormat(LinkedResource& resource) {
-        if (!resource.attachment || resource.index == none || !linker_.host.supports) return;
+        if (!resource.attachment || resource.index == none || !linker_.host.supports || resource.plan.isBuffer) return;
         for (const rhi::TextureFormat format : resource.attachment->formats) {
             resource.plan.format = format;
             if (linker_.host.supports(format, resource.plan.usage, resource.plan.samples)) return;
@@ -176,9 +256,10 @@ private:
 
     void passFits(const LinkedPass& pass) {
         const LinkedSlot* first = nullptr;
-        std::uint32_t views = pass.says->forEachLayer ? linker_.plan.viewCounts[pass.says->view] : 1;
+        const std::uint32_t views = pass.says->forEachLayer ? linker_.viewCounts[pass.says->viewIndex] : 1;
         const LinkedSlot* copies[2] = {};
-        for (const LinkedSlot& slot : pass.slots) {
+        for (const LinkedSlot& slot : linker_.slotsOf(pass)) {
+            ++linker_.visits;
             if (slot.in == none) continue;
             slotFits(pass, slot, views);
             if (slot.says->use == SlotUse::Copy) copies[slot.says->access == SlotAccess::Read ? 0 : 1] = &slot;
@@ -186,7 +267,8 @@ private:
             if (first) targetsFit(pass, *first, slot);
             if (!first) first = &slot;
         }
-        if (copies[0] && copies[1]) copyFits(pass, *copies[0], *copies[1]);
+        // What a class copies is its own affair.
+        if (copies[0] && copies[1] && !pass.info) copyFits(pass, *copies[0], *copies[1]);
         conflicts(pass);
     }
 
@@ -197,26 +279,33 @@ private:
 
     void slotFits(const LinkedPass& pass, const LinkedSlot& slot, std::uint32_t views) {
         const PlanResource& image = resourceOf(slot).plan;
+        const SlotUse use = slot.says->use;
+        const auto title = [&] { return "'" + pass.says->name + "." + slot.says->name + "'"; };
+        const bool either = use == SlotUse::Storage || use == SlotUse::Copy;
+        if (!either && image.isBuffer != isBufferUse(use)) {
+            linker_.reporter.error(placeOf(slot), "P037",
+                                   "'" + image.name + "' is " + (image.isBuffer ? "a buffer" : "an image") + "; " +
+                                       title() + " is " + std::string(word(use)));
+            return;
+        }
         if (image.isBuffer) return;
-        const std::string title = "'" + pass.says->name + "." + slot.says->name + "'";
         const bool depth = rhi::isDepth(image.format);
-        const bool wrong = (slot.says->use == SlotUse::Color && depth) ||
-                           (slot.says->use == SlotUse::Depth && !depth) ||
-                           (slot.says->use == SlotUse::Storage && depth);
+        const bool wrong =
+            (use == SlotUse::Color && depth) || (use == SlotUse::Depth && !depth) || (use == SlotUse::Storage && depth);
         if (wrong) {
             linker_.reporter.error(placeOf(slot), "P037",
-                                   title + " is a " + word(slot.says->use) + " slot, '" + image.name + "' is " +
+                                   title() + " is a " + std::string(word(use)) + " slot, '" + image.name + "' is " +
                                        std::string(rhi::name(image.format)));
         }
-        if (slot.says->use == SlotUse::Storage && image.samples > 1) {
+        if (use == SlotUse::Storage && image.samples > 1) {
             linker_.reporter.error(
                 placeOf(slot), "P042",
-                title + " is storage, '" + image.name + "' has " + std::to_string(image.samples) + " samples");
+                title() + " is storage, '" + image.name + "' has " + std::to_string(image.samples) + " samples");
         }
         if (!isTarget(*slot.says)) return;
         if (pass.says->forEachLayer ? image.layers < views : image.layers > 1) {
             linker_.reporter.error(placeOf(slot), "P039",
-                                   title + " draws into " + std::to_string(views) + " layer(s), '" + image.name +
+                                   title() + " draws into " + std::to_string(views) + " layer(s), '" + image.name +
                                        "' has " + std::to_string(image.layers),
                                    pass.says->forEachLayer
                                        ? "give it \"layers\": {\"view\": \"" + pass.says->view + "\"}"
@@ -245,18 +334,22 @@ private:
     void copyFits(const LinkedPass& pass, const LinkedSlot& from, const LinkedSlot& to) {
         const PlanResource& a = resourceOf(from).plan;
         const PlanResource& b = resourceOf(to).plan;
-        if (a.format == b.format && a.extent == b.extent && a.samples == b.samples) return;
+        const bool lentBuffer = a.isBuffer && (a.bytes == 0 || b.bytes == 0);  // its size is known when it is lent
+        if (a.isBuffer == b.isBuffer && (a.bytes == b.bytes || lentBuffer || !a.isBuffer) && a.format == b.format &&
+            a.extent == b.extent && a.samples == b.samples)
+            return;
         linker_.reporter.error(placeOf(to), "P039",
-                               "copy pass '" + pass.says->name + "' needs equal images: '" + a.name + "' and '" +
-                                   b.name + "' differ in format, size or samples");
+                               "copy pass '" + pass.says->name + "' needs equal images or buffers: '" + a.name +
+                                   "' and '" + b.name + "' differ in kind, format, size or samples");
     }
 
     // One image twice in a pass is fine while nobody writes it.
     void conflicts(const LinkedPass& pass) {
-        for (std::size_t i = 0; i < pass.slots.size(); ++i) {
-            for (std::size_t j = i + 1; j < pass.slots.size(); ++j) {
-                const LinkedSlot& a = pass.slots[i];
-                const LinkedSlot& b = pass.slots[j];
+        const std::span<const LinkedSlot> slots = linker_.slotsOf(pass);
+        for (std::size_t i = 0; i < slots.size(); ++i) {
+            for (std::size_t j = i + 1; j < slots.size(); ++j) {
+                const LinkedSlot& a = slots[i];
+                const LinkedSlot& b = slots[j];
                 if (a.in == none || b.in == none || linker_.versions[a.in].resource != linker_.versions[b.in].resource)
                     continue;
                 if (a.says->access == SlotAccess::Read && b.says->access == SlotAccess::Read) continue;

@@ -15,58 +15,56 @@ public:
 
     void run() {
         for (std::uint32_t i = 0; i < linker_.passes.size(); ++i) {
-            LinkedPass& pass = linker_.passes[i];
-            if (!pass.enabled) continue;
-            for (LinkedSlot& slot : pass.slots) resolve(i, slot);
+            if (!linker_.passes[i].enabled) continue;
+            for (std::uint32_t slot = 0; slot < linker_.passes[i].slotCount; ++slot) resolve(i, slot);
         }
-        for (const ExportDeclaration& each : linker_.tree.exports) exported(each);
+        linker_.exportVersions.assign(linker_.tree.exports.size(), none);
+        for (std::size_t i = 0; i < linker_.tree.exports.size(); ++i) exported(i);
     }
 
 private:
+    struct Link {
+        std::uint32_t pass, slot;
+        bool operator==(const Link&) const = default;
+    };
+
+    LinkedSlot& at(Link link) { return linker_.slots[linker_.passes[link.pass].firstSlot + link.slot]; }
+    const std::string& nameOf(std::uint32_t pass) const { return linker_.passes[pass].says->name; }
+    std::string title(Link link) { return nameOf(link.pass) + "." + at(link).says->name; }
+
     // The version that a slot's pass leaves, or none.
     std::uint32_t resultOf(const Reference& reference) {
-        LinkedPass* pass = linker_.passNamed(reference.owner);
-        if (!pass || !pass->enabled) return none;
-        for (LinkedSlot& slot : pass->slots) {
-            if (slot.says->name != reference.member) continue;
-            resolve(static_cast<std::uint32_t>(pass - linker_.passes.data()), slot);
-            return slot.out;
-        }
-        return none;
+        if (reference.index == none || reference.slot == none || !linker_.passes[reference.index].enabled) return none;
+        resolve(reference.index, reference.slot);
+        return at({reference.index, reference.slot}).out;
     }
 
     std::uint32_t versionFor(const Reference& reference) {
-        switch (reference.root) {
-            case Root::Pass:
-                return resultOf(reference);
-            case Root::Host:
-                if (!linker_.conditions.imports[reference.member]) return none;
-                [[fallthrough]];
-            case Root::Attachment:
-            case Root::Constant:
-                return linker_.resources[linker_.resource(reference)].base;
-        }
-        return none;
+        if (reference.root == Root::Pass) return resultOf(reference);
+        if (reference.root == Root::Host && !linker_.conditions.imports[reference.member]) return none;
+        return linker_.resources[linker_.resource(reference)].base;
     }
 
     // What readers of a disabled pass are given, when the reader names nothing else itself.
     std::uint32_t standInFor(const SlotDeclaration& says) {
         if (says.access != SlotAccess::Read) return none;
         for (const Reference& reference : says.connect) {
-            const PassDeclaration* pass = reference.root == Root::Pass ? linker_.tree.pass(reference.owner) : nullptr;
-            const SlotDeclaration* slot = pass ? pass->slot(reference.member) : nullptr;
-            if (slot && slot->whenDisabled) return linker_.resources[linker_.resource(*slot->whenDisabled)].base;
+            if (reference.root != Root::Pass || reference.index == none || reference.slot == none) continue;
+            const SlotDeclaration& slot = linker_.tree.passes[reference.index].slots[reference.slot];
+            if (slot.whenDisabled) return linker_.resources[linker_.resource(*slot.whenDisabled)].base;
         }
         return none;
     }
 
-    void resolve(std::uint32_t passIndex, LinkedSlot& slot) {
+    void resolve(std::uint32_t pass, std::uint32_t index) {
+        const Link link{pass, index};
+        LinkedSlot& slot = at(link);
+        ++linker_.visits;
         if (slot.state == State::Done || slot.state == State::Failed) return;
         const SlotDeclaration& says = *slot.says;
-        const std::string title = linker_.passes[passIndex].says->name + "." + says.name;
-        if (slot.state == State::Resolving) return circle(slot, title);
+        if (slot.state == State::Resolving) return circle(link);
         slot.state = State::Resolving;
-        chain_.push_back(title);
+        chain_.push_back(link);
         for (const Reference& reference : says.connect) {
             const std::uint32_t found = versionFor(reference);
             if (slot.state == State::Failed) break;  // this very slot was met again on the way
@@ -79,34 +77,37 @@ private:
         if (slot.state == State::Failed) return;
         slot.state = State::Done;
         if (slot.in == none) slot.in = standInFor(says);
-        if (slot.in == none) return missing(slot, title);
+        if (slot.in == none) return missing(link);
         if (says.access == SlotAccess::Read) {
-            linker_.versions[slot.in].readers.push_back(passIndex);
+            linker_.versions[slot.in].readers.push_back(pass);
         } else {
-            modify(passIndex, slot, title);
+            modify(link);
         }
     }
 
-    void modify(std::uint32_t passIndex, LinkedSlot& slot, const std::string& title) {
+    void modify(Link link) {
+        LinkedSlot& slot = at(link);
         Version& before = linker_.versions[slot.in];
-        const std::string image = linker_.resources[before.resource].plan.name;
+        LinkedResource& image = linker_.resources[before.resource];
         if (before.modifier != none) {
-            const std::string other = linker_.passes[before.modifier].says->name + "." + before.modifierSlot;
-            linker_.reporter.error(slot.source ? slot.source->place : slot.says->place, "P034",
-                                   "'" + image + "' is already " + (before.number == 0 ? "written" : "changed") +
-                                       " by '" + linker_.passes[before.modifier].says->name + "'",
-                                   "continue from '" + other + "' with access readWrite");
+            linker_.reporter.error(
+                slot.source ? slot.source->place : slot.says->place, "P034",
+                "'" + image.plan.name + "' is already " + (before.number == 0 ? "written" : "changed") + " by '" +
+                    nameOf(before.modifier) + "'",
+                "continue from '" + title({before.modifier, before.modifierSlot}) + "' with access readWrite");
             slot.state = State::Failed;
             return;
         }
-        before.modifier = passIndex;
-        before.modifierSlot = title.substr(title.find('.') + 1);
-        Version after{.resource = before.resource, .producer = passIndex, .number = before.number + 1};
+        before.modifier = link.pass;
+        before.modifierSlot = link.slot;
+        Version after{.resource = before.resource, .producer = link.pass, .number = before.number + 1};
         slot.out = static_cast<std::uint32_t>(linker_.versions.size());
+        image.last = slot.out;
         linker_.versions.push_back(std::move(after));
     }
 
-    void missing(LinkedSlot& slot, const std::string& title) {
+    void missing(Link link) {
+        LinkedSlot& slot = at(link);
         const SlotDeclaration& says = *slot.says;
         if (says.optional || says.connect.empty()) return;
         slot.state = State::Failed;
@@ -115,40 +116,40 @@ private:
         if (last.root == Root::Host) {
             const ImportDeclaration* import = linker_.tree.import(last.member);
             linker_.reporter.error(import ? import->place : last.place, "H001",
-                                   "the host does not lend '" + last.member + "', which '" + title + "' needs");
+                                   "the host does not lend '" + last.member + "', which '" + title(link) + "' needs");
             return;
         }
-        const LinkedPass* pass = linker_.passNamed(last.owner);
-        linker_.reporter.error(last.place, "P044",
-                               "'" + title + "' needs '" + last.text() + "', but '" + last.owner +
-                                   "' is off: " + (pass ? pass->whyOff : "unknown"),
-                               "name another source after it, or mark '" + title + "' optional");
+        const std::string why = last.index == none ? "unknown" : linker_.whyOff(linker_.passes[last.index]);
+        linker_.reporter.error(
+            last.place, "P044",
+            "'" + title(link) + "' needs '" + last.text() + "', but '" + last.owner + "' is off: " + why,
+            "name another source after it, or mark '" + title(link) + "' optional");
     }
 
     // Whether the source has failed itself, so that its own report is the one to read.
     bool failedAlready(const Reference& reference) {
-        const LinkedPass* pass = reference.root == Root::Pass ? linker_.passNamed(reference.owner) : nullptr;
-        return pass && pass->enabled;
+        return reference.root == Root::Pass && reference.index != none && linker_.passes[reference.index].enabled;
     }
 
-    void circle(LinkedSlot& slot, const std::string& title) {
-        slot.state = State::Failed;
+    void circle(Link link) {
+        at(link).state = State::Failed;
         std::string text;
         bool inside = false;
-        for (const std::string& each : chain_) {
-            inside = inside || each == title;
-            if (inside) text += each.substr(0, each.find('.')) + " -> ";
+        for (const Link& each : chain_) {
+            inside = inside || each == link;
+            if (inside) text += nameOf(each.pass) + " -> ";
         }
-        linker_.reporter.error(slot.says->connectPlace, "P046",
-                               "passes wait for each other: " + text + title.substr(0, title.find('.')),
+        linker_.reporter.error(at(link).says->connectPlace, "P046",
+                               "passes wait for each other: " + text + nameOf(link.pass),
                                "break one of these connections");
     }
 
-    void exported(const ExportDeclaration& each) {
+    void exported(std::size_t index) {
+        const ExportDeclaration& each = linker_.tree.exports[index];
         for (const Reference& reference : each.from) {
             const std::uint32_t version = reference.root == Root::Pass ? resultOf(reference) : none;
             if (version == none) continue;
-            linker_.exportVersions[each.name] = version;
+            linker_.exportVersions[index] = version;
             return;
         }
         if (each.optional || each.from.empty() || failedAlready(each.from.back())) return;
@@ -160,33 +161,43 @@ private:
     }
 
     Linker& linker_;
-    std::vector<std::string> chain_ = {};
+    std::vector<Link> chain_ = {};
 };
 
 }  // namespace
 
 std::uint32_t Linker::resource(const Reference& reference) {
-    const auto [at, isNew] = resourceOf.emplace(reference.text(), static_cast<std::uint32_t>(resources.size()));
-    if (!isNew) return at->second;
+    std::uint32_t& known = reference.root == Root::Host       ? ofImport[reference.index]
+                           : reference.root == Root::Constant ? ofConstant[reference.index]
+                           : reference.root == Root::History  ? ofHistory[reference.index]
+                                                              : ofAttachment[reference.index];
+    if (known != none) return known;
+    known = static_cast<std::uint32_t>(resources.size());
     LinkedResource made;
     made.plan.name = reference.text();
-    made.base = static_cast<std::uint32_t>(versions.size());
+    made.base = made.last = static_cast<std::uint32_t>(versions.size());
     if (reference.root == Root::Host) {
         made.plan.kind = PlanResource::Kind::Import;
-        made.import = tree.import(reference.member);
-        made.plan.isBuffer = made.import && made.import->kind == ImportDeclaration::Kind::Buffer;
-        made.plan.cube = made.import && made.import->kind == ImportDeclaration::Kind::ImageCube;
+        made.import = &tree.imports[reference.index];
+        made.plan.isBuffer = made.import->kind == ImportDeclaration::Kind::Buffer;
+        made.plan.cube = made.import->kind == ImportDeclaration::Kind::ImageCube;
     } else if (reference.root == Root::Constant) {
         made.plan.kind = PlanResource::Kind::Constant;
     } else {
-        made.attachment = tree.attachment(reference.member);
+        made.attachment = &tree.attachments[reference.index];
+        made.plan.isBuffer = made.attachment->isBuffer;
+        if (reference.root == Root::History) made.plan.kind = PlanResource::Kind::History;
     }
-    versions.push_back({.resource = at->second});
+    versions.push_back({.resource = known});
     resources.push_back(std::move(made));
-    return at->second;
+    return known;
 }
 
 void Linker::resolveReferences() {
+    ofAttachment.assign(tree.attachments.size(), none);
+    ofHistory.assign(tree.attachments.size(), none);
+    ofImport.assign(tree.imports.size(), none);
+    ofConstant.assign(constantNames().size(), none);
     Resolver(*this).run();
 }
 

@@ -63,10 +63,7 @@ std::string Plan::dot() const {
             "passes " + std::to_string(resource.firstPass + 1) + ".." + std::to_string(resource.lastPass + 1);
         out +=
             "    " + quoted(resource.name) + " [shape=" + (transient ? "oval" : "hexagon") + ", label=" +
-            lines({resource.name, image(resource),
-                   transient ? std::to_string(resource.bytes) + " bytes, texture " + std::to_string(resource.allocation)
-                             : "",
-                   life}) +
+            lines({resource.name, image(resource), transient ? std::to_string(resource.bytes) + " bytes" : "", life}) +
             "];\n";
     }
     for (const PlanPass& pass : passes) {

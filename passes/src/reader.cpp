@@ -58,14 +58,15 @@ void readReference(const Value& value, std::vector<Reference>& out, Reporter& re
     }
     if (!isName(reference.owner) || !isName(reference.member)) {
         reporter.error(value.place, "P015", "'" + value.string + "' is not a reference",
-                       R"(write "Pass.slot", "host.Name", "att.Name" or "const.name")");
+                       R"(write "Pass.slot", "host.Name", "att.Name", "history.Name" or "const.name")");
         return;
     }
     using Root = Reference::Root;
-    reference.root = reference.owner == "host"    ? Root::Host
-                     : reference.owner == "att"   ? Root::Attachment
-                     : reference.owner == "const" ? Root::Constant
-                                                  : Root::Pass;
+    reference.root = reference.owner == "host"      ? Root::Host
+                     : reference.owner == "att"     ? Root::Attachment
+                     : reference.owner == "history" ? Root::History
+                     : reference.owner == "const"   ? Root::Constant
+                                                    : Root::Pass;
     out.push_back(std::move(reference));
 }
 
@@ -187,43 +188,89 @@ ImportDeclaration readImport(const Member& member) {
     return import;
 }
 
-SizeDeclaration readSize(const Value& attachment, const std::string& name, Reporter& reporter) {
-    SizeDeclaration size{.place = attachment.place};
-    const Value* value = attachment.find("size");
-    if (!value) return size;
-    size.place = value->place;
+SizeDeclaration readSize(const Value& value, const std::string& about, Reporter& reporter) {
+    SizeDeclaration size{.place = value.place};
     int ways = 0;
     using Kind = SizeDeclaration::Kind;
-    if (const Value* frame = value->find("frame")) {
+    if (const Value* frame = value.find("frame")) {
         ++ways, size.kind = Kind::Frame, size.scale = frame->number;
     }
-    if (const Value* like = value->find("like")) {
+    if (const Value* like = value.find("like")) {
         ++ways, size.kind = Kind::Like, size.like = like->string, size.place = like->place;
-        if (const Value* scale = value->find("scale")) size.scale = scale->number;
-    } else if (const Member* scale = value->member("scale")) {
-        reporter.error(scale->place, "P025", "size of 'att." + name + "': \"scale\" goes with \"like\"",
-                       "write \"frame\": scale");
+        if (const Value* scale = value.find("scale")) size.scale = scale->number;
+    } else if (const Member* scale = value.member("scale")) {
+        reporter.error(scale->place, "P025", about + ": \"scale\" goes with \"like\"", "write \"frame\": scale");
     }
-    if (const Value* square = value->find("square")) {
+    if (const Value* square = value.find("square")) {
         ++ways, size.kind = Kind::Square, size.width = numberOrSetting(*square);
     }
-    if (const Value* fixed = value->find("fixed")) {
+    if (const Value* fixed = value.find("fixed")) {
         ++ways, size.kind = Kind::Fixed;
         if (fixed->elements.size() == 2) {
             size.width = numberOrSetting(fixed->elements[0]);
             size.height = numberOrSetting(fixed->elements[1]);
         }
     }
-    if (ways != 1) {
-        reporter.error(value->place, "P025",
-                       "size of 'att." + name + "' needs exactly one of frame, like, square and fixed");
-    }
+    if (ways != 1) reporter.error(value.place, "P025", about + " needs exactly one of frame, like, square and fixed");
     return size;
+}
+
+BytesDeclaration readBytes(const Value& value, const std::string& about, Reporter& reporter) {
+    BytesDeclaration bytes{.place = value.place};
+    if (!value.isObject()) {
+        bytes.count = numberOrSetting(value);
+        return bytes;
+    }
+    const Value* setting = value.find("setting");
+    const Value* perPixel = value.find("perPixel");
+    const Value* like = value.find("like");
+    if ((setting != nullptr) == (perPixel != nullptr)) {
+        reporter.error(value.place, "P056", about + " needs a number, or exactly one of setting and perPixel");
+        return bytes;
+    }
+    if (like && !perPixel) reporter.error(like->place, "P056", about + R"(: "like" goes with "perPixel")", "remove it");
+    if (setting) bytes.count = numberOrSetting(value);
+    if (perPixel) {
+        bytes.perPixel = true;
+        bytes.count = {1, {}, value.place};
+        bytes.times = perPixel->number;
+        if (like) bytes.pixels = {.kind = SizeDeclaration::Kind::Like, .like = like->string, .place = like->place};
+    }
+    if (const Value* times = value.find("times")) {
+        if (perPixel) reporter.error(times->place, "P056", about + R"(: "times" goes with "setting")", "remove it");
+        bytes.times = times->number;
+    }
+    return bytes;
+}
+
+// What only images or only buffers have.
+void membersOfKind(const Member& attachment, bool buffer, Reporter& reporter) {
+    const std::string title = "attachment '" + attachment.key + "' is " + (buffer ? "a buffer" : "an image");
+    for (const char* key : {"format", "size", "formatFallbacks", "samples", "layers"}) {
+        const Member* found = attachment.value.member(key);
+        if (buffer && found)
+            reporter.error(found->place, "P056", title + ": it has no \"" + std::string(key) + "\"", "remove it");
+    }
+    if (const Member* bytes = attachment.value.member("bytes"); bytes && !buffer)
+        reporter.error(bytes->place, "P056", title + ": it has no \"bytes\"", R"(add "kind": "buffer", or remove it)");
+    for (const char* key : {"format", "size"}) {
+        if (!buffer && !attachment.value.find(key))
+            reporter.error(attachment.value.place, "J011",
+                           "attachments['" + attachment.key + "'] has no \"" + std::string(key) + "\"");
+    }
+    if (buffer && !attachment.value.find("bytes"))
+        reporter.error(attachment.value.place, "J011", "attachments['" + attachment.key + "'] has no \"bytes\"");
 }
 
 AttachmentDeclaration readAttachment(const Member& member, Reporter& reporter) {
     const Value& value = member.value;
     AttachmentDeclaration attachment{.name = member.key, .place = member.place};
+    attachment.isBuffer = wordOf(value, "kind") == "buffer";
+    const Value* history = value.find("history");
+    attachment.history = history && history->number > 0;
+    membersOfKind(member, attachment.isBuffer, reporter);
+    if (const Value* bytes = value.find("bytes"))
+        attachment.bytes = readBytes(*bytes, "size of 'att." + member.key + "'", reporter);
     attachment.formats.push_back(rhi::textureFormatFromName(wordOf(value, "format")));
     attachment.formatPlace = placeOf(value, "format");
     if (const Value* others = value.find("formatFallbacks")) {
@@ -235,7 +282,9 @@ AttachmentDeclaration readAttachment(const Member& member, Reporter& reporter) {
             }
         }
     }
-    attachment.size = readSize(value, member.key, reporter);
+    attachment.size.place = value.place;
+    if (const Value* size = value.find("size"))
+        attachment.size = readSize(*size, "size of 'att." + member.key + "'", reporter);
     if (const Value* samples = value.find("samples")) attachment.samples = numberOrSetting(*samples);
     if (attachment.samples.place.line == 0) attachment.samples.place = member.place;
     attachment.layersPlace = placeOf(value, "layers");
@@ -262,11 +311,12 @@ std::vector<Reference> readReferences(const Value& value, Reporter& reporter) {
     return references;
 }
 
-std::shared_ptr<PassTree::Description> readDescription(const json::Document& document, Diagnostics& out) {
-    const Value& root = document.root;
+std::shared_ptr<PassTree::Description> readDescription(const Source& source, Diagnostics& out) {
+    const Value& root = source.root;
     auto description = std::make_shared<PassTree::Description>();
-    Reporter reporter(document.file, out);
-    description->file = document.file;
+    Reporter reporter(source.files, out);
+    description->files = source.files;
+    description->onDisk = source.onDisk;
     description->name = wordOf(root, "name");
     forEachMember(root, "settings", [&](const Member& member) {
         description->settings.push_back(SettingReader(member, reporter).read());

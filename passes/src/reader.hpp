@@ -7,14 +7,26 @@
 
 namespace pelage::passes {
 
-/// Reads all of a document that the schema accepts; reports what a schema cannot say.
-std::shared_ptr<PassTree::Description> readDescription(const json::Document& document, Diagnostics& out);
+/// A tree's text with all that it includes, laid together; its places know their files.
+struct Source {
+    json::Value root = {};
+    std::vector<std::string> files = {}, onDisk = {};
+};
+/// Holds the document and what it includes against the schema (include.cpp). `disk`: it is a file, and others may lie
+/// beside it. Reports P057..P059.
+Source readSource(json::Document document, const TextReader& reader, bool disk, Diagnostics& out);
+
+/// Reads all of a source that the schema accepts; reports what a schema cannot say.
+std::shared_ptr<PassTree::Description> readDescription(const Source& source, Diagnostics& out);
 
 /// The members "templates" and "passes" (reader_passes.cpp). Settings, imports, … of `description` are read already.
 void readPasses(const json::Value& root, PassTree::Description& description, Reporter& reporter);
 
 /// Faults that are there whatever the settings: names, references, what may follow what (check.cpp).
 void checkDescription(PassTree::Description& description, Reporter& reporter);
+
+/// Numbers for names, so that the linker compares no words (check_references.cpp). Only for a tree without fault.
+void resolveNames(PassTree::Description& description);
 
 /// The text of passtree.schema.json.
 std::string_view passTreeSchema();

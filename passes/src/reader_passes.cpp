@@ -12,8 +12,9 @@ using json::Value;
 
 SlotUse useOf(const std::string& word) {
     static constexpr std::pair<std::string_view, SlotUse> uses[] = {
-        {"color", SlotUse::Color},     {"depth", SlotUse::Depth},     {"sampled", SlotUse::Sampled},
-        {"storage", SlotUse::Storage}, {"uniform", SlotUse::Uniform}, {"copy", SlotUse::Copy},
+        {"color", SlotUse::Color},     {"depth", SlotUse::Depth},       {"sampled", SlotUse::Sampled},
+        {"storage", SlotUse::Storage}, {"uniform", SlotUse::Uniform},   {"copy", SlotUse::Copy},
+        {"vertex", SlotUse::Vertex},   {"indirect", SlotUse::Indirect},
     };
     for (const auto& [name, use] : uses) {
         if (name == word) return use;
@@ -30,6 +31,10 @@ PassKind kindOf(const std::string& word) {
 void readClear(const Value& clear, SlotDeclaration& slot, Reporter& reporter) {
     slot.hasClear = true;
     slot.clearPlace = clear.place;
+    if (clear.isNumber()) {
+        slot.clearIsZero = true;
+        return;
+    }
     if (clear.isArray()) {
         if (clear.elements.size() != 4) return;
         slot.clear = {clear.elements[0].number, clear.elements[1].number, clear.elements[2].number,
@@ -82,6 +87,7 @@ public:
         forEachMember(value_, "constants", [&](const Member& member) {
             pass_.constants.push_back({member.key, numberOrSetting(member.value), member.place});
         });
+        readParameters();
         if (const Value* after = value_.find("after")) {
             for (const Value& name : after->elements) pass_.after.push_back({name.string, name.place});
         }
@@ -94,8 +100,9 @@ private:
     void readKindAndSlots() {
         const Value* kind = value_.find("kind");
         const Value* named = value_.find("template");
-        if ((kind != nullptr) == (named != nullptr)) {
-            reporter_.error(value_.place, "P003", title() + " needs exactly one of \"kind\" and \"template\"");
+        const int ways = (kind ? 1 : 0) + (named ? 1 : 0) + (value_.find("class") ? 1 : 0);
+        if (ways != 1) {
+            reporter_.error(value_.place, "P003", title() + R"( needs exactly one of "kind", "class" and "template")");
         }
         if (named) {
             const Value* templates = root_.find("templates");
@@ -108,15 +115,15 @@ private:
                 reporter_.error(named->place, "P004", title() + ": unknown template '" + named->string + "'",
                                 didYouMean(named->string, known));
             } else {
-                pass_.kind = kindOf(wordOf(*found, "kind"));
+                readKind(*found);
                 // What is wrong inside the template was reported where the templates were read.
                 Diagnostics reported;
-                Reporter quiet({}, reported);
+                Reporter quiet(std::string{}, reported);
                 forEachMember(*found, "slots", [&](const Member& m) { pass_.slots.push_back(readSlot(m, quiet)); });
                 for (SlotDeclaration& slot : pass_.slots) slot.place = value_.place;
             }
         }
-        if (kind) pass_.kind = kindOf(kind->string);
+        if (!named) readKind(value_);
         forEachMember(value_, "slots", [&](const Member& member) {
             if (pass_.slot(member.key)) {
                 reporter_.error(member.place, "P008", title() + ": slot '" + member.key + "' comes from its template",
@@ -124,6 +131,32 @@ private:
                 return;
             }
             pass_.slots.push_back(readSlot(member, reporter_));
+        });
+    }
+
+    void readKind(const Value& value) {
+        pass_.kind = kindOf(wordOf(value, "kind"));
+        pass_.passClass = wordOf(value, "class");
+        pass_.classPlace = placeOf(value, "class");
+    }
+
+    void readParameters() {
+        const Member* given = value_.member("parameters");
+        if (given && pass_.passClass.empty()) {
+            reporter_.error(given->place, "P054", title() + " has \"parameters\" but no class to take them",
+                            R"(write "constants" for a shader, or name a "class")");
+        }
+        forEachMember(value_, "parameters", [&](const Member& member) {
+            const Value& value = member.value;
+            ParameterDeclaration made{.name = member.key, .place = value.place, .namePlace = member.place};
+            using Type = ParameterInfo::Type;
+            made.type = value.isString() ? Type::Word : value.isBool() ? Type::Bool : Type::Number;
+            if (value.isString()) {
+                made.word = value.string;
+            } else {
+                made.value = numberOrSetting(value);
+            }
+            pass_.parameters.push_back(std::move(made));
         });
     }
 
@@ -143,9 +176,17 @@ private:
         readTriple("threads", pass_.threads);
         pass_.dispatchLike = wordOf(value_, "dispatchLike");
         pass_.dispatchPlace = placeOf(value_, "dispatchLike");
-        if (value_.find("dispatch") && value_.find("dispatchLike")) {
-            reporter_.error(pass_.dispatchPlace, "P028", title() + " has both \"dispatch\" and \"dispatchLike\"",
-                            "remove one");
+        pass_.dispatchIndirect = wordOf(value_, "dispatchIndirect");
+        pass_.indirectPlace = placeOf(value_, "dispatchIndirect");
+        const char* before = nullptr;
+        for (const char* key : {"dispatch", "dispatchLike", "dispatchIndirect"}) {
+            const Value* found = value_.find(key);
+            if (!found) continue;
+            if (before) {
+                reporter_.error(found->place, "P028", title() + " has both \"" + before + "\" and \"" + key + "\"",
+                                "remove one");
+            }
+            before = key;
         }
     }
 
@@ -210,6 +251,10 @@ private:
 
 void readPasses(const Value& root, PassTree::Description& description, Reporter& reporter) {
     forEachMember(root, "templates", [&](const Member& one) {
+        if ((one.value.find("kind") != nullptr) == (one.value.find("class") != nullptr)) {
+            reporter.error(one.value.place, "P003",
+                           "template '" + one.key + R"(' needs exactly one of "kind" and "class")");
+        }
         forEachMember(one.value, "slots", [&](const Member& member) { readSlot(member, reporter); });
     });
     const Value* passes = root.find("passes");

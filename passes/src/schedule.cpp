@@ -4,6 +4,8 @@
 // the file, and it keeps a result close to its reader, so that images live shortly.
 #include "link.hpp"
 
+#include <random>
+
 namespace pelage::passes {
 namespace {
 
@@ -12,32 +14,60 @@ public:
     explicit Scheduler(Linker& linker) : linker_(linker), marks_(linker.passes.size(), Mark::New) {}
 
     void run() {
-        std::vector<std::uint32_t> roots;
-        for (const ExportDeclaration& each : linker_.tree.exports) {
-            const auto found = linker_.exportVersions.find(each.name);
-            if (found != linker_.exportVersions.end()) roots.push_back(linker_.versions[found->second].producer);
+        for (const std::uint32_t version : linker_.exportVersions) {
+            if (version != none) keep(linker_.versions[version].producer);
         }
-        std::map<std::string, std::uint32_t> effects;  // by name, so that the file's order does not matter
+        std::vector<std::uint32_t> effects;
         for (std::uint32_t i = 0; i < linker_.passes.size(); ++i) {
-            if (linker_.passes[i].enabled && linker_.passes[i].says->sideEffects)
-                effects[linker_.passes[i].says->name] = i;
+            if (linker_.passes[i].enabled && linker_.passes[i].says->sideEffects) effects.push_back(i);
         }
-        for (const auto& [name, index] : effects) roots.push_back(index);
-        for (const std::uint32_t root : roots) keep(root);
+        byName(effects);  // so that the file's order does not matter
+        for (const std::uint32_t pass : effects) keep(pass);
+        // A root that is kept for the next frame may keep others: the list grows while it is walked.
+        for (std::size_t i = 0; i < roots_.size(); ++i) keepInputs(roots_[i]);
         cullRest();
-        for (const std::uint32_t root : roots) visit(root);
+        for (const std::uint32_t root : roots_) visit(root);
+        if (linker_.options.order && !circle_) shuffle(*linker_.options.order);
+        for (std::uint32_t i = 0; i < linker_.order.size(); ++i) linker_.passes[linker_.order[i]].place = i;
         warnAboutOldVersions();
     }
 
 private:
     enum class Mark : std::uint8_t { New, Open, Done };
 
-    // Only data keeps a pass: that it must come before another one does not.
-    void keep(std::uint32_t index) {
-        if (index == none || linker_.passes[index].live) return;
-        linker_.passes[index].live = true;
-        for (const LinkedSlot& slot : linker_.passes[index].slots) {
-            if (slot.in != none) keep(linker_.versions[slot.in].producer);
+    void byName(std::vector<std::uint32_t>& list) const {
+        if (list.size() < 2) return;
+        std::sort(list.begin(), list.end(), [this](std::uint32_t a, std::uint32_t b) {
+            return linker_.passes[a].says->name < linker_.passes[b].says->name;
+        });
+        list.erase(std::unique(list.begin(), list.end()), list.end());
+    }
+
+    void keep(std::uint32_t pass) {
+        if (pass != none) roots_.push_back(pass);
+    }
+
+    // Only data keeps a pass: that it must come before another one does not. Who is read by the next frame is a root of
+    // its own, for it need not come before its reader.
+    void keepInputs(std::uint32_t root) {
+        open_.push_back(root);
+        while (!open_.empty()) {
+            LinkedPass& pass = linker_.passes[open_.back()];
+            open_.pop_back();
+            if (pass.live) continue;
+            pass.live = true;
+            for (const LinkedSlot& slot : linker_.slotsOf(pass)) {
+                ++linker_.visits;
+                if (slot.in == none) continue;
+                const Version& version = linker_.versions[slot.in];
+                if (version.producer != none) open_.push_back(version.producer);
+                const LinkedResource& resource = linker_.resources[version.resource];
+                if (resource.plan.kind != PlanResource::Kind::History) continue;
+                const std::size_t attachment =
+                    static_cast<std::size_t>(resource.attachment - linker_.tree.attachments.data());
+                const std::uint32_t written = linker_.ofAttachment[attachment];
+                if (written != none) keep(linker_.versions[linker_.resources[written].last].producer);
+            }
         }
     }
 
@@ -46,7 +76,8 @@ private:
         for (const LinkedPass& pass : linker_.passes) {
             if (pass.live) continue;
             const std::string& name = pass.says->name;
-            culled[name] = name + ": " + (pass.enabled ? "no export needs its result" : "switched off, " + pass.whyOff);
+            culled[name] =
+                name + ": " + (pass.enabled ? "no export needs its result" : "switched off, " + linker_.whyOff(pass));
             if (!pass.enabled) continue;
             linker_.reporter.warning(pass.says->namePlace, "P048",
                                      "pass '" + name + "' is culled: no export needs its result",
@@ -55,32 +86,61 @@ private:
         for (auto& [name, text] : culled) linker_.plan.culled.push_back(std::move(text));
     }
 
+    // Everything that must be done before a pass, in the order in which the walk takes it.
+    template <class Use>
+    void forEachBefore(std::uint32_t index, Use&& use) {
+        const LinkedPass& pass = linker_.passes[index];
+        for (const LinkedSlot& slot : linker_.slotsOf(pass)) {
+            ++linker_.visits;
+            if (slot.in != none) use(linker_.versions[slot.in].producer);
+        }
+        // Who reads an image as it was must be done before it is changed.
+        for (const LinkedSlot& slot : linker_.slotsOf(pass)) {
+            if (slot.out == none || linker_.versions[slot.in].readers.empty()) continue;
+            std::vector<std::uint32_t> readers = linker_.versions[slot.in].readers;
+            byName(readers);
+            for (const std::uint32_t reader : readers) {
+                ++linker_.visits;
+                if (reader != index) use(reader);
+            }
+        }
+        for (const OrderedAfter& after : pass.says->after) use(after.index);
+    }
+
     void visit(std::uint32_t index) {
         if (index == none || marks_[index] == Mark::Done || !linker_.passes[index].live || circle_) return;
         if (marks_[index] == Mark::Open) return circle(index);
         marks_[index] = Mark::Open;
         path_.push_back(index);
-        const LinkedPass& pass = linker_.passes[index];
-        for (const LinkedSlot& slot : pass.slots) {
-            if (slot.in != none) visit(linker_.versions[slot.in].producer);
-        }
-        // Who reads an image as it was must be done before it is changed.
-        for (const LinkedSlot& slot : pass.slots) {
-            if (slot.out == none) continue;
-            std::map<std::string, std::uint32_t> readers;
-            for (const std::uint32_t reader : linker_.versions[slot.in].readers) {
-                if (reader != index) readers[linker_.passes[reader].says->name] = reader;
-            }
-            for (const auto& [name, reader] : readers) visit(reader);
-        }
-        for (const OrderedAfter& after : pass.says->after) {
-            if (const LinkedPass* other = linker_.passNamed(after.pass)) {
-                visit(static_cast<std::uint32_t>(other - linker_.passes.data()));
-            }
-        }
+        forEachBefore(index, [this](std::uint32_t before) { visit(before); });
         path_.pop_back();
         marks_[index] = Mark::Done;
         linker_.order.push_back(index);
+    }
+
+    // Another valid order: again and again one of the passes that wait for nothing.
+    void shuffle(std::uint32_t seed) {
+        std::minstd_rand random(seed);
+        std::vector<std::vector<std::uint32_t>> after(linker_.passes.size());
+        std::vector<std::uint32_t> waits(linker_.passes.size(), 0), ready;
+        for (const std::uint32_t index : linker_.order) {
+            forEachBefore(index, [&](std::uint32_t before) {
+                if (before == none || !linker_.passes[before].live) return;
+                after[before].push_back(index);
+                ++waits[index];
+            });
+            if (waits[index] == 0) ready.push_back(index);
+        }
+        linker_.order.clear();
+        while (!ready.empty()) {
+            std::swap(ready[random() % ready.size()], ready.back());
+            const std::uint32_t index = ready.back();
+            ready.pop_back();
+            linker_.order.push_back(index);
+            for (const std::uint32_t next : after[index]) {
+                if (--waits[next] == 0) ready.push_back(next);
+            }
+        }
     }
 
     void circle(std::uint32_t index) {
@@ -96,38 +156,45 @@ private:
                                "break one of these connections");
     }
 
+    // The slot that changes what `version` is, when its pass runs.
+    const LinkedSlot* changer(const Version& version) const {
+        if (version.modifier == none || !linker_.passes[version.modifier].live) return nullptr;
+        return &linker_.slots[linker_.passes[version.modifier].firstSlot + version.modifierSlot];
+    }
+
     void warnAboutOldVersions() {
         for (const std::uint32_t index : linker_.order) {
-            for (const LinkedSlot& slot : linker_.passes[index].slots) {
+            for (const LinkedSlot& slot : linker_.slotsOf(linker_.passes[index])) {
                 if (slot.in == none || slot.says->access != SlotAccess::Read) continue;
                 const Version& version = linker_.versions[slot.in];
-                if (version.modifier == none || version.modifier == index || !linker_.passes[version.modifier].live)
-                    continue;
-                const std::string modifier = linker_.passes[version.modifier].says->name;
+                const LinkedSlot* changed = changer(version);
+                if (!changed || version.modifier == index) continue;
+                const std::string& modifier = linker_.passes[version.modifier].says->name;
                 linker_.reporter.warning(slot.source ? slot.source->place : slot.says->place, "P033",
                                          "'" + linker_.passes[index].says->name + "' reads '" +
                                              linker_.resources[version.resource].plan.name + "' as it was before '" +
                                              modifier + "' changed it",
-                                         "did you mean '" + modifier + "." + version.modifierSlot + "'?");
+                                         "did you mean '" + modifier + "." + changed->says->name + "'?");
             }
         }
-        for (const ExportDeclaration& each : linker_.tree.exports) {
-            const auto found = linker_.exportVersions.find(each.name);
-            if (found == linker_.exportVersions.end()) continue;
-            const Version& version = linker_.versions[found->second];
-            if (version.modifier == none || !linker_.passes[version.modifier].live) continue;
-            const std::string modifier = linker_.passes[version.modifier].says->name;
+        for (std::size_t i = 0; i < linker_.exportVersions.size(); ++i) {
+            if (linker_.exportVersions[i] == none) continue;
+            const Version& version = linker_.versions[linker_.exportVersions[i]];
+            const LinkedSlot* changed = changer(version);
+            if (!changed) continue;
+            const ExportDeclaration& each = linker_.tree.exports[i];
+            const std::string& modifier = linker_.passes[version.modifier].says->name;
             linker_.reporter.warning(each.fromPlace, "P033",
                                      "export '" + each.name + "' shows '" +
                                          linker_.resources[version.resource].plan.name + "' as '" + modifier +
                                          "' leaves it",
-                                     "did you mean '" + modifier + "." + version.modifierSlot + "'?");
+                                     "did you mean '" + modifier + "." + changed->says->name + "'?");
         }
     }
 
     Linker& linker_;
     std::vector<Mark> marks_;
-    std::vector<std::uint32_t> path_ = {};
+    std::vector<std::uint32_t> roots_ = {}, open_ = {}, path_ = {};
     bool circle_ = false;
 };
 

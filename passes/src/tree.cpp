@@ -5,32 +5,29 @@
 namespace pelage::passes {
 namespace {
 
-Checked<std::shared_ptr<const PassTree::Description>> describe(const json::Document& document) {
-    Checked<json::Schema> schema = json::Schema::parse(passTreeSchema(), "passtree.schema.json");
-    if (!schema) return tl::unexpected(schema.error());
-    Diagnostics out = schema->validate(document);
-    // What breaks the schema is not looked at further: one fault, one line.
-    if (out.hasErrors()) {
-        out.sortByPlace();
-        return tl::unexpected(std::move(out));
-    }
-    std::shared_ptr<PassTree::Description> description = readDescription(document, out);
+Checked<std::shared_ptr<const PassTree::Description>> describe(Checked<json::Document> document,
+                                                               const TextReader& reader, bool disk) {
+    if (!document) return tl::unexpected(std::move(document.error()));
+    Diagnostics out;
+    const Source source = readSource(std::move(*document), reader, disk, out);
+    std::shared_ptr<PassTree::Description> description;
+    if (!out.hasErrors()) description = readDescription(source, out);
     if (!out.hasErrors()) {
-        Reporter reporter(document.file, out);
-        checkDescription(*description, reporter);
+        Reporter reports(source.files, out);
+        checkDescription(*description, reports);
     }
     out.sortByPlace();
     if (out.hasErrors()) return tl::unexpected(std::move(out));
+    resolveNames(*description);
     description->warnings = std::move(out);
     return description;
 }
 
 }  // namespace
 
-Checked<std::shared_ptr<const PassTree>> PassTree::parse(std::string_view text, const std::string& file) {
-    const Checked<json::Document> document = json::parse(text, file);
-    if (!document) return tl::unexpected(document.error());
-    auto description = describe(*document);
+Checked<std::shared_ptr<const PassTree>> PassTree::parse(std::string_view text, const std::string& file,
+                                                         const TextReader& reader) {
+    auto description = describe(json::parse(text, file), reader, false);
     if (!description) return tl::unexpected(std::move(description.error()));
     auto tree = std::make_shared<PassTree>();
     tree->description_ = std::move(*description);
@@ -38,9 +35,7 @@ Checked<std::shared_ptr<const PassTree>> PassTree::parse(std::string_view text, 
 }
 
 Checked<std::shared_ptr<const PassTree>> PassTree::load(const std::string& path) {
-    const Checked<json::Document> document = json::parseFile(path);
-    if (!document) return tl::unexpected(document.error());
-    auto description = describe(*document);
+    auto description = describe(json::parseFile(path), {}, true);
     if (!description) return tl::unexpected(std::move(description.error()));
     auto tree = std::make_shared<PassTree>();
     tree->description_ = std::move(*description);
@@ -51,7 +46,10 @@ const std::string& PassTree::name() const {
     return description_->name;
 }
 const std::string& PassTree::file() const {
-    return description_->file;
+    return description_->files.front();
+}
+const std::vector<std::string>& PassTree::files() const {
+    return description_->onDisk;
 }
 const std::vector<SettingInfo>& PassTree::settings() const {
     return description_->settingInfos;
@@ -67,18 +65,7 @@ const Diagnostics& PassTree::warnings() const {
 }
 
 Checked<Plan> PassTree::compile(const HostDescription& host) const {
-    Diagnostics out;
-    Reporter reporter(description_->file, out);
-    Linker linker{.tree = *description_, .host = host, .reporter = reporter};
-    linker.evaluateConditions();
-    if (!out.hasErrors()) linker.resolveReferences();
-    if (!out.hasErrors()) linker.schedule();
-    if (!out.hasErrors()) linker.describeImages();
-    out.sortByPlace();
-    if (out.hasErrors()) return tl::unexpected(std::move(out));
-    linker.finish();
-    linker.plan.warnings = std::move(out);
-    return std::move(linker.plan);
+    return link(*description_, host, {}).plan;
 }
 
 }  // namespace pelage::passes

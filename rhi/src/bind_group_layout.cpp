@@ -10,14 +10,14 @@ namespace detail {
 BindGroupLayoutObject::~BindGroupLayoutObject() {
     if (handle == VK_NULL_HANDLE) return;
     device->bury(lastUse, [layout = handle](DeviceObject& d) {
-        d.functions.vkDestroyDescriptorSetLayout(d.handle, layout, nullptr);
+        d.functions.vkDestroyDescriptorSetLayout(d.handle, layout, d.allocator);
     });
 }
 
 PipelineLayoutObject::~PipelineLayoutObject() {
     if (handle == VK_NULL_HANDLE) return;
     device->bury(lastUse, [layout = handle](DeviceObject& d) {
-        d.functions.vkDestroyPipelineLayout(d.handle, layout, nullptr);
+        d.functions.vkDestroyPipelineLayout(d.handle, layout, d.allocator);
     });
 }
 
@@ -73,7 +73,8 @@ Result<std::shared_ptr<BindGroupLayoutObject>> makeBindGroupLayout(const std::sh
     VkDescriptorSetLayoutCreateInfo info = {VK_STRUCTURE_TYPE_DESCRIPTOR_SET_LAYOUT_CREATE_INFO};
     info.bindingCount = static_cast<std::uint32_t>(bindings.size());
     info.pBindings = bindings.data();
-    if (const auto r = device->functions.vkCreateDescriptorSetLayout(device->handle, &info, nullptr, &object->handle);
+    if (const auto r =
+            device->functions.vkCreateDescriptorSetLayout(device->handle, &info, device->allocator, &object->handle);
         r != VK_SUCCESS)
         return forward(vulkanError(r, "vkCreateDescriptorSetLayout", object->describe()));
     device->nameObject(VK_OBJECT_TYPE_DESCRIPTOR_SET_LAYOUT, object->handle, descriptor.label);
@@ -119,7 +120,8 @@ Result<std::shared_ptr<PipelineLayoutObject>> makePipelineLayout(
     info.pSetLayouts = handles.data();
     info.pushConstantRangeCount = pushConstantsSize > 0 ? 1 : 0;
     info.pPushConstantRanges = &range;
-    if (const auto r = device->functions.vkCreatePipelineLayout(device->handle, &info, nullptr, &object->handle);
+    if (const auto r =
+            device->functions.vkCreatePipelineLayout(device->handle, &info, device->allocator, &object->handle);
         r != VK_SUCCESS)
         return forward(vulkanError(r, "vkCreatePipelineLayout", object->describe()));
     device->nameObject(VK_OBJECT_TYPE_PIPELINE_LAYOUT, object->handle, label);

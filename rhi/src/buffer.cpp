@@ -6,9 +6,13 @@ namespace detail {
 
 BufferObject::~BufferObject() {
     if (handle == VK_NULL_HANDLE) return;
+    if (!ownsBuffer) {
+        if (onRelease) device->bury(lastUse, [tell = std::move(onRelease)](DeviceObject&) { tell(); });
+        return;
+    }
     --device->liveBuffers;
     device->bury(lastUse, [buffer = handle, memory = allocation](DeviceObject& d) {
-        d.functions.vkDestroyBuffer(d.handle, buffer, nullptr);
+        d.functions.vkDestroyBuffer(d.handle, buffer, d.allocator);
         d.memory.release(memory);
     });
 }
@@ -37,7 +41,7 @@ Result<Buffer> makeBuffer(const std::shared_ptr<DeviceObject>& device, const Buf
     info.usage = toVk(descriptor.usage);
     const auto& vk = device->functions;
     VkBuffer buffer = VK_NULL_HANDLE;
-    if (const auto r = vk.vkCreateBuffer(device->handle, &info, nullptr, &buffer); r != VK_SUCCESS)
+    if (const auto r = vk.vkCreateBuffer(device->handle, &info, device->allocator, &buffer); r != VK_SUCCESS)
         return forward(vulkanError(r, "vkCreateBuffer", object->describe()));
     VkBufferMemoryRequirementsInfo2 query = {VK_STRUCTURE_TYPE_BUFFER_MEMORY_REQUIREMENTS_INFO_2};
     query.buffer = buffer;
@@ -46,7 +50,7 @@ Result<Buffer> makeBuffer(const std::shared_ptr<DeviceObject>& device, const Buf
     const auto use = read ? MemoryUse::Readback : write ? MemoryUse::Upload : MemoryUse::Device;
     auto memory = device->memory.allocate(needs.memoryRequirements, use, false, object->describe());
     if (!memory) {
-        vk.vkDestroyBuffer(device->handle, buffer, nullptr);
+        vk.vkDestroyBuffer(device->handle, buffer, device->allocator);
         return forward(memory.error());
     }
     VkBindBufferMemoryInfo bind = {VK_STRUCTURE_TYPE_BIND_BUFFER_MEMORY_INFO};
@@ -54,7 +58,7 @@ Result<Buffer> makeBuffer(const std::shared_ptr<DeviceObject>& device, const Buf
     bind.memory = memory->memory;
     bind.memoryOffset = memory->offset;
     if (const auto r = vk.vkBindBufferMemory2(device->handle, 1, &bind); r != VK_SUCCESS) {
-        vk.vkDestroyBuffer(device->handle, buffer, nullptr);
+        vk.vkDestroyBuffer(device->handle, buffer, device->allocator);
         device->memory.release(*memory);
         return forward(vulkanError(r, "vkBindBufferMemory2", object->describe()));
     }

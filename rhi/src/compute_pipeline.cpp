@@ -20,7 +20,7 @@ Result<ComputePipeline> makeComputePipeline(const std::shared_ptr<DeviceObject>&
     info.stage = stage->create();
     info.layout = object->layout->handle;
     if (const auto r = device->functions.vkCreateComputePipelines(device->handle, device->pipelineCache, 1, &info,
-                                                                  nullptr, &object->handle);
+                                                                  device->allocator, &object->handle);
         r != VK_SUCCESS)
         return forward(vulkanError(r, "vkCreateComputePipelines", object->describe()));
     object->key = key;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Making a device: features are asked for and granted by name, and what Pelage always needs is always on.
 #include "device_object.hpp"
+#include "features.hpp"
 #include "recording.hpp"
 
 namespace pelage::rhi {
@@ -24,56 +25,41 @@ Toggles togglesFor(VkDriverId driver) {
     return toggles;
 }
 
-namespace {
-
-struct FeatureChain {
-    VkPhysicalDeviceLineRasterizationFeaturesEXT lines = {
-        VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_LINE_RASTERIZATION_FEATURES_EXT};
-    VkPhysicalDeviceVulkan13Features f13 = {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
-    VkPhysicalDeviceVulkan12Features f12 = {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, &f13};
-    VkPhysicalDeviceVulkan11Features f11 = {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_1_FEATURES, &f12};
-    VkPhysicalDeviceFeatures2 f = {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &f11};
-};
-
-void chooseFeatures(const AdapterObject& adapter, Feature granted, FeatureChain& on) {
-    FeatureChain has;
-    if (adapter.lineRasterization) {
-        has.f13.pNext = &has.lines;
-        on.f13.pNext = &on.lines;
-        on.lines.rectangularLines = VK_TRUE;
+Result<void> openDevice(DeviceObject& device) {
+    const auto title = cat("[Device \"", device.label, "\"]");
+    const auto& instance = device.adapter->instance->vk;
+    auto& vk = device.functions;
+    std::string missing;
+#define PELAGE_VK_DEVICE(name)                                                                  \
+    vk.name = reinterpret_cast<PFN_##name>(instance.vkGetDeviceProcAddr(device.handle, #name)); \
+    if (vk.name == nullptr) missing += " " #name;
+#define PELAGE_VK_DEVICE_OPTIONAL(name) \
+    vk.name = reinterpret_cast<PFN_##name>(instance.vkGetDeviceProcAddr(device.handle, #name));
+#include "functions.def"
+    if (!missing.empty())
+        return fail(ErrorKind::Unsupported, ErrorCode::DriverCall, cat(title, " lacks the functions", missing, '.'));
+    device.memory.open(&vk, device.handle, device.adapter->memory, device.allocator);
+    if (device.queue.handle == VK_NULL_HANDLE)
+        vk.vkGetDeviceQueue(device.handle, device.adapter->queueFamily, 0, &device.queue.handle);
+    VkSemaphoreTypeCreateInfo type = {VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO};
+    type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
+    VkSemaphoreCreateInfo semaphore = {VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, &type};
+    if (const auto r = vk.vkCreateSemaphore(device.handle, &semaphore, device.allocator, &device.queue.timeline);
+        r != VK_SUCCESS)
+        return forward(vulkanError(r, "vkCreateSemaphore", title));
+    if (device.pipelineCache == VK_NULL_HANDLE) {
+        VkPipelineCacheCreateInfo cache = {VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
+        if (const auto r = vk.vkCreatePipelineCache(device.handle, &cache, device.allocator, &device.pipelineCache);
+            r != VK_SUCCESS)
+            return forward(vulkanError(r, "vkCreatePipelineCache", title));
     }
-    adapter.instance->vk.vkGetPhysicalDeviceFeatures2(adapter.handle, &has.f);
-    on.f13.dynamicRendering = on.f13.synchronization2 = on.f13.maintenance4 = VK_TRUE;
-    // glslang writes `discard` as one of these two.
-    on.f13.shaderTerminateInvocation = has.f13.shaderTerminateInvocation;
-    on.f13.shaderDemoteToHelperInvocation = has.f13.shaderDemoteToHelperInvocation;
-    on.f13.shaderZeroInitializeWorkgroupMemory = has.f13.shaderZeroInitializeWorkgroupMemory;
-    on.f12.timelineSemaphore = VK_TRUE;
-    on.f12.scalarBlockLayout = has.f12.scalarBlockLayout;
-    on.f11.shaderDrawParameters = has.f11.shaderDrawParameters;
-    auto& to = on.f.features;
-    const auto& from = has.f.features;
-    to.independentBlend = VK_TRUE;
-    to.sampleRateShading = from.sampleRateShading;
-    to.depthClamp = from.depthClamp;
-    to.depthBiasClamp = from.depthBiasClamp;
-    to.imageCubeArray = from.imageCubeArray;
-    to.fullDrawIndexUint32 = from.fullDrawIndexUint32;
-    to.shaderFloat64 = from.shaderFloat64;
-    to.shaderInt64 = from.shaderInt64;
-    to.shaderImageGatherExtended = from.shaderImageGatherExtended;
-    to.shaderStorageImageExtendedFormats = from.shaderStorageImageExtendedFormats;
-    to.shaderStorageImageWriteWithoutFormat = from.shaderStorageImageWriteWithoutFormat;
-    to.shaderUniformBufferArrayDynamicIndexing = from.shaderUniformBufferArrayDynamicIndexing;
-    to.shaderStorageBufferArrayDynamicIndexing = from.shaderStorageBufferArrayDynamicIndexing;
-    to.shaderClipDistance = from.shaderClipDistance;
-    to.wideLines = contains(granted, Feature::WideLines);
-    to.pipelineStatisticsQuery = contains(granted, Feature::PipelineStatistics);
-    to.fillModeNonSolid = contains(granted, Feature::FillModeNonSolid);
-    to.samplerAnisotropy = contains(granted, Feature::AnisotropicFiltering);
-    to.fragmentStoresAndAtomics = to.vertexPipelineStoresAndAtomics = contains(granted, Feature::FragmentStores);
-    on.f12.shaderBufferInt64Atomics = contains(granted, Feature::Int64BufferAtomics);
+    device.queue.uploads = std::make_unique<Recording>();
+    device.nameObject(VK_OBJECT_TYPE_SEMAPHORE, device.queue.timeline, device.label + " timeline");
+    if (!device.adopted) device.nameObject(VK_OBJECT_TYPE_DEVICE, device.handle, device.label);
+    return {};
 }
+
+namespace {
 
 Result<std::shared_ptr<DeviceObject>> makeDevice(const std::shared_ptr<AdapterObject>& adapter,
                                                  const DeviceDescriptor& descriptor) {
@@ -94,53 +80,30 @@ Result<std::shared_ptr<DeviceObject>> makeDevice(const std::shared_ptr<AdapterOb
     device->info.features = granted;
     if (!contains(granted, Feature::WideLines)) device->info.limits.maxLineWidth = 1;
     device->onUncapturedError = descriptor.onUncapturedError;
+    device->onDeviceLost = descriptor.onDeviceLost;
     device->toggles = togglesFor(adapter->driverId);
 
-    FeatureChain features;
-    chooseFeatures(*adapter, granted, features);
-    device->depthClamp = features.f.features.depthClamp != 0;
+    vulkan::FeatureChain features;
+    enableFeatures(*adapter, granted, features);
+    device->depthClamp = features.f10.features.depthClamp != 0;
     device->rectangularLines = features.lines.rectangularLines != 0;
-    std::vector<const char*> extensions;
-    if (adapter->lineRasterization) extensions.push_back(VK_EXT_LINE_RASTERIZATION_EXTENSION_NAME);
+    auto extensions = deviceExtensions(*adapter);
     if (adapter->swapchain) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
     const float priority = 1;
     VkDeviceQueueCreateInfo queue = {VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};
     queue.queueFamilyIndex = adapter->queueFamily;
     queue.queueCount = 1;
     queue.pQueuePriorities = &priority;
-    VkDeviceCreateInfo info = {VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features.f};
+    VkDeviceCreateInfo info = {VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO, &features.f10};
     info.queueCreateInfoCount = 1;
     info.pQueueCreateInfos = &queue;
     info.enabledExtensionCount = static_cast<std::uint32_t>(extensions.size());
     info.ppEnabledExtensionNames = extensions.data();
-    const auto& instance = adapter->instance->vk;
     VkDevice handle = VK_NULL_HANDLE;
-    if (const auto r = instance.vkCreateDevice(adapter->handle, &info, nullptr, &handle); r != VK_SUCCESS)
+    if (const auto r = adapter->instance->vk.vkCreateDevice(adapter->handle, &info, nullptr, &handle); r != VK_SUCCESS)
         return forward(vulkanError(r, "vkCreateDevice", title));
-    auto& vk = device->functions;
-    std::string missing;
-#define PELAGE_VK_DEVICE(name)                                                           \
-    vk.name = reinterpret_cast<PFN_##name>(instance.vkGetDeviceProcAddr(handle, #name)); \
-    if (vk.name == nullptr) missing += " " #name;
-#define PELAGE_VK_DEVICE_OPTIONAL(name) \
-    vk.name = reinterpret_cast<PFN_##name>(instance.vkGetDeviceProcAddr(handle, #name));
-#include "functions.def"
     device->handle = handle;
-    if (!missing.empty())
-        return fail(ErrorKind::Unsupported, ErrorCode::DriverCall, cat(title, " lacks the functions", missing, '.'));
-    device->memory.open(&vk, handle, adapter->memory);
-    vk.vkGetDeviceQueue(handle, adapter->queueFamily, 0, &device->queue.handle);
-    VkSemaphoreTypeCreateInfo type = {VK_STRUCTURE_TYPE_SEMAPHORE_TYPE_CREATE_INFO};
-    type.semaphoreType = VK_SEMAPHORE_TYPE_TIMELINE;
-    VkSemaphoreCreateInfo semaphore = {VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO, &type};
-    if (const auto r = vk.vkCreateSemaphore(handle, &semaphore, nullptr, &device->queue.timeline); r != VK_SUCCESS)
-        return forward(vulkanError(r, "vkCreateSemaphore", title));
-    VkPipelineCacheCreateInfo cache = {VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
-    if (const auto r = vk.vkCreatePipelineCache(handle, &cache, nullptr, &device->pipelineCache); r != VK_SUCCESS)
-        return forward(vulkanError(r, "vkCreatePipelineCache", title));
-    device->queue.uploads = std::make_unique<Recording>();
-    device->nameObject(VK_OBJECT_TYPE_DEVICE, handle, descriptor.label);
-    device->nameObject(VK_OBJECT_TYPE_SEMAPHORE, device->queue.timeline, descriptor.label + " timeline");
+    if (auto opened = openDevice(*device); !opened) return forward(opened.error());
     return device;
 }
 

@@ -9,6 +9,8 @@
 
 #include "objects.hpp"
 
+#include <pelage/rhi/vulkan.hpp>
+
 namespace pelage::rhi::detail {
 
 struct InstanceObject {
@@ -22,6 +24,7 @@ struct InstanceObject {
     VkInstance handle = VK_NULL_HANDLE;
     VkDebugUtilsMessengerEXT messenger = VK_NULL_HANDLE;
     bool debugUtils = false, surfaces = false;
+    bool adopted = false;  // a host's: not destroyed
 };
 
 struct AdapterObject {
@@ -61,7 +64,9 @@ struct QueueState {
     std::mutex mutex;
     VkQueue handle = VK_NULL_HANDLE;
     VkSemaphore timeline = VK_NULL_HANDLE;
-    std::uint64_t submitted = 0;  // the last value given out
+    std::uint64_t submitted = 0;  // the last value given out, to a submission or a host's ticket
+    std::uint64_t signalled = 0;  // the last value that a submission of our own will signal
+    vulkan::QueueLock hostLock;   // held around every call on the queue, inside `mutex`
     std::vector<CommandSlot> running, idle;
     std::vector<StagingChunk> staging;
     std::unique_ptr<Recording> uploads;           // writes that the next submission carries
@@ -82,6 +87,10 @@ struct DeviceObject : std::enable_shared_from_this<DeviceObject> {
     void bury(std::uint64_t value, std::function<void(DeviceObject&)> destroy);
     void collect();
     std::uint64_t completed();
+    /// A submission (or ticket) of this value exists from now on; completed() will not pass it before it is done.
+    void began(std::uint64_t value, bool ticket);
+    void finishTicket(std::uint64_t value);
+    void loseDevice(const Error& error);
     void nameObject(VkObjectType type, std::uint64_t object, const std::string& text) const;
     template <class T>
     void nameObject(VkObjectType type, T object, const std::string& text) const {
@@ -94,11 +103,15 @@ struct DeviceObject : std::enable_shared_from_this<DeviceObject> {
     std::shared_ptr<AdapterObject> adapter;
     DeviceFunctions functions;
     VkDevice handle = VK_NULL_HANDLE;
+    bool adopted = false;  // a host's: not destroyed
+    bool hostPipelineCache = false;
+    const VkAllocationCallbacks* allocator = nullptr;
     std::string label;
     AdapterInfo info;
     Toggles toggles;
     bool depthClamp = false, rectangularLines = false;
-    std::function<void(const Error&)> onUncapturedError;
+    std::function<void(const Error&)> onUncapturedError, onDeviceLost;
+    std::function<void()> onRelease;
     std::atomic<bool> lost{false};
     std::atomic<std::uint64_t> nextId{1};
     std::atomic<std::uint32_t> liveBuffers{0}, liveTextures{0}, livePipelines{0};
@@ -117,6 +130,10 @@ struct DeviceObject : std::enable_shared_from_this<DeviceObject> {
     std::deque<Grave> graves;
     std::atomic<std::uint64_t> knownCompleted{0};
 
+    std::mutex timelineMutex;
+    std::vector<std::uint64_t> openTickets, openSubmissions;  // not known to be done, ascending
+    std::uint64_t lastBegun = 0;
+
     std::mutex poolMutex;
     std::vector<VkDescriptorPool> pools;
 
@@ -126,12 +143,41 @@ struct DeviceObject : std::enable_shared_from_this<DeviceObject> {
     std::map<std::string, std::weak_ptr<PipelineObject>> pipelineCacheByKey;
 };
 
+/// Loads the functions of device.handle and makes what every device has. What is there already is kept.
+Result<void> openDevice(DeviceObject& device);
+Result<std::shared_ptr<InstanceObject>> makeInstance(const InstanceDescriptor& descriptor,
+                                                     PFN_vkGetInstanceProcAddr getProcAddr);
+/// Loads the functions of instance.handle.
+Result<void> loadInstance(InstanceObject& instance);
+
+/// The host's queue lock while it lives.
+class HostLock {
+public:
+    explicit HostLock(const QueueState& queue) : lock_(queue.hostLock) {
+        if (lock_.lock) lock_.lock();
+    }
+    HostLock(const HostLock&) = delete;
+    HostLock& operator=(const HostLock&) = delete;
+    ~HostLock() {
+        if (lock_.unlock) lock_.unlock();
+    }
+
+private:
+    const vulkan::QueueLock& lock_;
+};
+
 /// Sends the uploads and the recordings as one command buffer; the queue's mutex is held by the caller.
 struct SubmitExtras {
     VkSemaphore signal = VK_NULL_HANDLE;  // binary, for presentation
     TextureObject* present = nullptr;     // brought into the layout for presentation at the end
 };
 struct CommandBufferObject;
+class Replay;
+Result<void> checkBuffers(DeviceObject& device, std::span<const CommandBuffer> commandBuffers);
+/// Writes the pending uploads and the recordings; markSent() afterwards, when the commands are on their way.
+void replayAll(DeviceObject& device, Replay& replay, std::span<const CommandBuffer> commandBuffers);
+void markSent(DeviceObject& device, std::uint64_t value, std::span<const CommandBuffer> commandBuffers);
+Error lostError(const DeviceObject& device);
 Result<Submission> submitLocked(DeviceObject& device, std::span<const CommandBuffer> commandBuffers,
                                 const SubmitExtras& extras);
 

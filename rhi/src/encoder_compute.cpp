@@ -61,6 +61,24 @@ void ComputePassEncoder::dispatchWorkgroups(std::uint32_t x, std::uint32_t y, st
     ++e.counters.dispatches;
 }
 
+void ComputePassEncoder::dispatchWorkgroupsIndirect(const Buffer& buffer, std::uint64_t offset) {
+    if (!encoder_ || !encoder_->ready(EncoderObject::State::ComputePass, "dispatchWorkgroupsIndirect")) return;
+    auto& e = *encoder_;
+    const detail::CommandName command{"dispatch #", e.pass.commands++};
+    if (!e.pass.pipeline)
+        return e.fail(
+            invalid(ErrorCode::MissingState, "dispatchWorkgroupsIndirect() needs a pipeline, and none is set.").value(),
+            command.text());
+    e.pass.merged.clear();
+    e.pass.groupsChanged = true;  // this scope has one use more than the groups'
+    if (!e.indirectArguments(buffer, offset, 3 * sizeof(std::uint32_t), command) ||
+        !e.flushBindings(VK_PIPELINE_BIND_POINT_COMPUTE, VK_PIPELINE_STAGE_2_COMPUTE_SHADER_BIT, command))
+        return;
+    e.add(e.scope.take(e.recording.uses));
+    e.add(packet::Indirect{packet::Indirect::Command::Dispatch, buffer.get(), offset});
+    ++e.counters.dispatches;
+}
+
 void ComputePassEncoder::pushDebugGroup(std::string_view label) {
     if (encoder_ && encoder_->ready(EncoderObject::State::ComputePass, "pushDebugGroup"))
         encoder_->pushDebugGroup(label);

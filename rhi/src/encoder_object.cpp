@@ -251,6 +251,31 @@ void EncoderObject::endPass() {
     pass = PassState{};
 }
 
+bool EncoderObject::indirectArguments(const Buffer& buffer, std::uint64_t offset, std::uint64_t size,
+                                      const CommandName& command) {
+    if (!accept(buffer, "the buffer of ", command.text())) return false;
+    auto& object = *buffer.get();
+    if (!contains(object.descriptor.usage, BufferUsage::Indirect))
+        return fail(invalid(ErrorCode::InvalidUsage,
+                            cat(object.describe(), " was created without ", usageNames(BufferUsage::Indirect),
+                                ", which indirect commands need."))
+                        .value(),
+                    command.text()),
+               false;
+    if (offset % 4 != 0 || offset > object.descriptor.size || size > object.descriptor.size - offset)
+        return fail(invalid(ErrorCode::OutOfRange,
+                            cat("The arguments are ", size, " bytes at byte ", offset, " of ", object.describe(),
+                                ", which has ", object.descriptor.size, "; they start at a multiple of 4."))
+                        .value(),
+                    command.text()),
+               false;
+    Use wanted;
+    wanted.object = &object;
+    wanted.kind = UseKind::Indirect;
+    wanted.access = accessOf(UseKind::Indirect, 0, false);
+    return use(wanted, command);
+}
+
 bool EncoderObject::flushBindings(VkPipelineBindPoint point, VkPipelineStageFlags2 stages, const CommandName& command) {
     const auto stop = [&](ErrorCode code, std::string text) {
         fail(invalid(code, std::move(text)).value(), command.text());

@@ -94,6 +94,8 @@ struct EncoderObject {
     bool queryIndex(const QuerySet& set, QueryType type, std::uint32_t index, std::string_view what);
     /// Binds what the pipeline needs and merges its groups into the scope. False after an error.
     bool flushBindings(VkPipelineBindPoint point, VkPipelineStageFlags2 stages, const CommandName& command);
+    /// Checks where indirect arguments lie and takes their buffer into the scope.
+    bool indirectArguments(const Buffer& buffer, std::uint64_t offset, std::uint64_t size, const CommandName& command);
     void beginPass(State state, std::string context, const std::string& passLabel,
                    const std::optional<TimestampWrites>& writes);
     void endPass();

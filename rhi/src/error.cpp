@@ -81,7 +81,7 @@ Error vulkanError(VkResult result, std::string_view call, std::string_view objec
 }
 
 void DeviceObject::report(const Error& error) {
-    if (error.kind == ErrorKind::DeviceLost) lost = true;
+    if (error.kind == ErrorKind::DeviceLost) loseDevice(error);
     {
         const std::lock_guard lock(scopeMutex);
         if (!scopes.empty()) {
@@ -96,6 +96,10 @@ void DeviceObject::report(const Error& error) {
     std::ostringstream id;
     id << 'R' << std::setw(3) << std::setfill('0') << static_cast<unsigned>(error.code);
     adapter->instance->message(LogLevel::Error, id.str(), toString(error));
+}
+
+void DeviceObject::loseDevice(const Error& error) {
+    if (!lost.exchange(true) && onDeviceLost) onDeviceLost(error);
 }
 
 }  // namespace detail

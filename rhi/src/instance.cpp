@@ -11,7 +11,7 @@ namespace pelage::rhi {
 namespace detail {
 
 InstanceObject::~InstanceObject() {
-    if (handle == VK_NULL_HANDLE) return;
+    if (handle == VK_NULL_HANDLE || adopted) return;
     if (messenger != VK_NULL_HANDLE) vk.vkDestroyDebugUtilsMessengerEXT(handle, messenger, nullptr);
     vk.vkDestroyInstance(handle, nullptr);
     // The loader stays open: drivers leave threads and exit handlers behind that must not be unmapped.
@@ -55,20 +55,28 @@ bool hasValidationLayer(const GlobalFunctions& vk, const char* layer) {
     return std::any_of(all.begin(), all.end(), [&](const auto& l) { return std::strcmp(l.layerName, layer) == 0; });
 }
 
-Result<std::shared_ptr<InstanceObject>> makeInstance(const InstanceDescriptor& descriptor) {
-    auto object = std::make_shared<InstanceObject>();
-    object->label = descriptor.label;
-    object->onMessage = descriptor.onMessage;
+Result<PFN_vkGetInstanceProcAddr> openLoader() {
     void* library = dlopen("libvulkan.so.1", RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr) library = dlopen("libvulkan.so", RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr)
         return fail(ErrorKind::Unsupported, ErrorCode::NoLoader,
                     "The Vulkan loader libvulkan.so.1 could not be opened; install \"libvulkan1\" and a driver, for "
                     "example \"mesa-vulkan-drivers\".");
-    object->getProcAddr = reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(library, "vkGetInstanceProcAddr"));
-    if (object->getProcAddr == nullptr)
+    const auto entry = reinterpret_cast<PFN_vkGetInstanceProcAddr>(dlsym(library, "vkGetInstanceProcAddr"));
+    if (entry == nullptr)
         return fail(ErrorKind::Unsupported, ErrorCode::NoLoader,
                     "The library libvulkan.so.1 has no vkGetInstanceProcAddr; it is not a Vulkan loader.");
+    return entry;
+}
+
+}  // namespace
+
+Result<std::shared_ptr<InstanceObject>> makeInstance(const InstanceDescriptor& descriptor,
+                                                     PFN_vkGetInstanceProcAddr getProcAddr) {
+    auto object = std::make_shared<InstanceObject>();
+    object->label = descriptor.label;
+    object->onMessage = descriptor.onMessage;
+    object->getProcAddr = getProcAddr;
     auto& global = object->global;
 #define PELAGE_VK_GLOBAL(name) global.name = reinterpret_cast<PFN_##name>(object->getProcAddr(nullptr, #name));
 #include "functions.def"
@@ -121,26 +129,42 @@ Result<std::shared_ptr<InstanceObject>> makeInstance(const InstanceDescriptor& d
     if (const auto r = global.vkCreateInstance(&info, nullptr, &object->handle); r != VK_SUCCESS)
         return forward(vulkanError(r, "vkCreateInstance", cat("[Instance \"", descriptor.label, "\"]")));
 
-    auto& vk = object->vk;
-    std::string missing;
-#define PELAGE_VK_INSTANCE(name)                                                        \
-    vk.name = reinterpret_cast<PFN_##name>(object->getProcAddr(object->handle, #name)); \
-    if (vk.name == nullptr) missing += " " #name;
-#define PELAGE_VK_INSTANCE_OPTIONAL(name) \
-    vk.name = reinterpret_cast<PFN_##name>(object->getProcAddr(object->handle, #name));
-#include "functions.def"
-    if (!missing.empty())
-        return fail(ErrorKind::Unsupported, ErrorCode::NoLoader, cat("The Vulkan loader lacks", missing, "."));
+    if (auto loaded = loadInstance(*object); !loaded) return forward(loaded.error());
+    const auto& vk = object->vk;
     if (object->debugUtils && descriptor.validation && vk.vkCreateDebugUtilsMessengerEXT != nullptr)
         vk.vkCreateDebugUtilsMessengerEXT(object->handle, &messenger, nullptr, &object->messenger);
     return object;
 }
 
-}  // namespace
+Result<void> loadInstance(InstanceObject& instance) {
+    auto& vk = instance.vk;
+    std::string missing;
+#define PELAGE_VK_INSTANCE(name)                                                          \
+    vk.name = reinterpret_cast<PFN_##name>(instance.getProcAddr(instance.handle, #name)); \
+    if (vk.name == nullptr) missing += " " #name;
+#define PELAGE_VK_INSTANCE_OPTIONAL(name) \
+    vk.name = reinterpret_cast<PFN_##name>(instance.getProcAddr(instance.handle, #name));
+#include "functions.def"
+    if (!missing.empty())
+        return fail(ErrorKind::Unsupported, ErrorCode::NoLoader, cat("The Vulkan loader lacks", missing, "."));
+    return {};
+}
+
 }  // namespace detail
 
 Result<Instance> Instance::create(const InstanceDescriptor& descriptor) {
-    return detail::makeInstance(descriptor).map([](auto object) { return Instance(std::move(object)); });
+    const auto entry = detail::openLoader();
+    if (!entry) return detail::forward(entry.error());
+    return vulkan::createInstance(descriptor, *entry);
+}
+
+Result<Instance> vulkan::createInstance(const InstanceDescriptor& descriptor,
+                                        PFN_vkGetInstanceProcAddr getInstanceProcAddr) {
+    if (getInstanceProcAddr == nullptr)
+        return detail::invalid(ErrorCode::InvalidHandle, "An empty handle was given for vkGetInstanceProcAddr.");
+    return detail::makeInstance(descriptor, getInstanceProcAddr).map([](auto object) {
+        return Instance(std::move(object));
+    });
 }
 
 std::vector<Adapter> Instance::enumerateAdapters() const {

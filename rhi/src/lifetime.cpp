@@ -12,7 +12,10 @@ DeviceObject::~DeviceObject() {
     if (handle == VK_NULL_HANDLE) return;
     const auto& f = functions;
     if (f.vkDeviceWaitIdle != nullptr && queue.timeline != VK_NULL_HANDLE) {
-        f.vkDeviceWaitIdle(handle);
+        {
+            const HostLock lock(queue);
+            f.vkDeviceWaitIdle(handle);
+        }
         queue.uploads.reset();  // writes that no submission carried are dropped
         while (!graves.empty()) {
             auto grave = std::move(graves.front());
@@ -20,17 +23,19 @@ DeviceObject::~DeviceObject() {
             grave.destroy(*this);
         }
         for (auto* slots : {&queue.running, &queue.idle})
-            for (const auto& slot : *slots) f.vkDestroyCommandPool(handle, slot.pool, nullptr);
+            for (const auto& slot : *slots) f.vkDestroyCommandPool(handle, slot.pool, allocator);
         for (const auto& chunk : queue.staging) {
-            f.vkDestroyBuffer(handle, chunk.buffer, nullptr);
+            f.vkDestroyBuffer(handle, chunk.buffer, allocator);
             memory.release(chunk.allocation);
         }
-        for (auto* pool : pools) f.vkDestroyDescriptorPool(handle, pool, nullptr);
-        if (pipelineCache != VK_NULL_HANDLE) f.vkDestroyPipelineCache(handle, pipelineCache, nullptr);
-        f.vkDestroySemaphore(handle, queue.timeline, nullptr);
+        for (auto* pool : pools) f.vkDestroyDescriptorPool(handle, pool, allocator);
+        if (pipelineCache != VK_NULL_HANDLE && !hostPipelineCache)
+            f.vkDestroyPipelineCache(handle, pipelineCache, allocator);
+        f.vkDestroySemaphore(handle, queue.timeline, allocator);
         memory.close();
     }
-    if (f.vkDestroyDevice != nullptr) f.vkDestroyDevice(handle, nullptr);
+    if (!adopted && f.vkDestroyDevice != nullptr) f.vkDestroyDevice(handle, nullptr);
+    if (onRelease) onRelease();
 }
 
 void DeviceObject::bury(std::uint64_t value, std::function<void(DeviceObject&)> destroy) {
@@ -42,16 +47,31 @@ void DeviceObject::bury(std::uint64_t value, std::function<void(DeviceObject&)> 
     graves.push_back({value, std::move(destroy)});
 }
 
+void DeviceObject::began(std::uint64_t value, bool ticket) {
+    const std::lock_guard lock(timelineMutex);
+    (ticket ? openTickets : openSubmissions).push_back(value);
+    lastBegun = value;
+}
+
+void DeviceObject::finishTicket(std::uint64_t value) {
+    const std::lock_guard lock(timelineMutex);
+    std::erase(openTickets, value);
+}
+
 std::uint64_t DeviceObject::completed() {
-    std::uint64_t value = 0;
-    if (functions.vkGetSemaphoreCounterValue(handle, queue.timeline, &value) != VK_SUCCESS) {
-        lost = true;
+    std::uint64_t signalled = 0;
+    if (functions.vkGetSemaphoreCounterValue(handle, queue.timeline, &signalled) != VK_SUCCESS) {
+        loseDevice(lostError(*this));
         return knownCompleted;
     }
-    std::uint64_t known = knownCompleted;
-    while (known < value && !knownCompleted.compare_exchange_weak(known, value)) {
-    }
-    return std::max(known, value);
+    // Everything before the oldest that may still run is done.
+    const std::lock_guard lock(timelineMutex);
+    std::erase_if(openSubmissions, [&](std::uint64_t v) { return v <= signalled; });
+    std::uint64_t done = lastBegun;
+    if (!openSubmissions.empty()) done = std::min(done, openSubmissions.front() - 1);
+    if (!openTickets.empty()) done = std::min(done, openTickets.front() - 1);
+    if (done > knownCompleted) knownCompleted = done;
+    return knownCompleted;
 }
 
 void DeviceObject::collect() {
@@ -100,7 +120,7 @@ Result<std::pair<VkDescriptorSet, VkDescriptorPool>> DeviceObject::allocateSet(V
     pool.maxSets = sets;
     pool.poolSizeCount = static_cast<std::uint32_t>(std::size(sizes));
     pool.pPoolSizes = sizes;
-    if (const auto r = functions.vkCreateDescriptorPool(handle, &pool, nullptr, &allocate.descriptorPool);
+    if (const auto r = functions.vkCreateDescriptorPool(handle, &pool, allocator, &allocate.descriptorPool);
         r != VK_SUCCESS)
         return forward(vulkanError(r, "vkCreateDescriptorPool", object));
     pools.push_back(allocate.descriptorPool);

@@ -40,14 +40,15 @@ MemoryAllocator::MemoryAllocator() = default;
 MemoryAllocator::~MemoryAllocator() = default;
 
 void MemoryAllocator::open(const DeviceFunctions* functions, VkDevice device,
-                           const VkPhysicalDeviceMemoryProperties& properties) {
+                           const VkPhysicalDeviceMemoryProperties& properties, const VkAllocationCallbacks* allocator) {
     vk_ = functions;
     device_ = device;
+    allocator_ = allocator;
     properties_ = properties;
 }
 
 void MemoryAllocator::close() {
-    for (const auto& block : blocks_) vk_->vkFreeMemory(device_, block->memory, nullptr);
+    for (const auto& block : blocks_) vk_->vkFreeMemory(device_, block->memory, allocator_);
     blocks_.clear();
 }
 
@@ -58,12 +59,12 @@ Result<MemoryBlock*> MemoryAllocator::addBlock(std::uint32_t type, bool optimalI
     block->optimalImage = optimalImage;
     block->dedicated = dedicated;
     VkMemoryAllocateInfo info = {VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, nullptr, size, type};
-    if (const auto r = vk_->vkAllocateMemory(device_, &info, nullptr, &block->memory); r != VK_SUCCESS)
+    if (const auto r = vk_->vkAllocateMemory(device_, &info, allocator_, &block->memory); r != VK_SUCCESS)
         return forward(vulkanError(r, cat("vkAllocateMemory of ", size, " bytes"), object));
     if ((properties_.memoryTypes[type].propertyFlags & VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT) != 0) {
         void* pointer = nullptr;
         if (const auto r = vk_->vkMapMemory(device_, block->memory, 0, VK_WHOLE_SIZE, 0, &pointer); r != VK_SUCCESS) {
-            vk_->vkFreeMemory(device_, block->memory, nullptr);
+            vk_->vkFreeMemory(device_, block->memory, allocator_);
             return forward(vulkanError(r, "vkMapMemory", object));
         }
         block->mapped = static_cast<std::byte*>(pointer);
@@ -115,8 +116,12 @@ void MemoryAllocator::release(const Allocation& allocation) {
                b->list.empty();
     });
     if (!block->dedicated && !another) return;
-    vk_->vkFreeMemory(device_, block->memory, nullptr);
+    vk_->vkFreeMemory(device_, block->memory, allocator_);
     std::erase_if(blocks_, [&](const auto& b) { return b.get() == block; });
+}
+
+std::uint32_t MemoryAllocator::typeOf(const Allocation& allocation) const {
+    return allocation.block->type;
 }
 
 MemoryCounters MemoryAllocator::counters() const {

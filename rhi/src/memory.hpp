@@ -37,11 +37,13 @@ public:
     MemoryAllocator(const MemoryAllocator&) = delete;
     MemoryAllocator& operator=(const MemoryAllocator&) = delete;
 
-    void open(const DeviceFunctions* functions, VkDevice device, const VkPhysicalDeviceMemoryProperties& properties);
+    void open(const DeviceFunctions* functions, VkDevice device, const VkPhysicalDeviceMemoryProperties& properties,
+              const VkAllocationCallbacks* allocator);
     void close();
     Result<Allocation> allocate(const VkMemoryRequirements& requirements, MemoryUse use, bool optimalImage,
                                 const std::string& object);
     void release(const Allocation& allocation);
+    std::uint32_t typeOf(const Allocation& allocation) const;
     MemoryCounters counters() const;
 
 private:
@@ -49,6 +51,7 @@ private:
                                   const std::string& object);
     const DeviceFunctions* vk_ = nullptr;
     VkDevice device_ = VK_NULL_HANDLE;
+    const VkAllocationCallbacks* allocator_ = nullptr;
     VkPhysicalDeviceMemoryProperties properties_ = {};
     mutable std::mutex mutex_;
     std::vector<std::unique_ptr<MemoryBlock>> blocks_;

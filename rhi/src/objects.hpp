@@ -6,6 +6,7 @@
 #include <pelage/rhi/device.hpp>
 
 #include <atomic>
+#include <functional>
 #include <mutex>
 #include <unordered_map>
 
@@ -18,6 +19,7 @@ namespace pelage::rhi::detail {
 
 struct DeviceObject;
 struct TextureViewObject;
+struct TransientHeapObject;
 
 struct Object {
     Object(std::shared_ptr<DeviceObject> owner, std::string_view kindName, std::string objectLabel);
@@ -42,6 +44,8 @@ struct BufferObject final : Object {
     BufferDescriptor descriptor;
     VkBuffer handle = VK_NULL_HANDLE;
     Allocation allocation;
+    bool ownsBuffer = true;  // false: a host's
+    std::function<void()> onRelease;
     AccessState state;  // under the queue's mutex
 };
 
@@ -52,11 +56,16 @@ struct TextureObject final : Object, std::enable_shared_from_this<TextureObject>
         return descriptor.dimension == TextureDimension::E3D ? 1 : descriptor.size.depthOrArrayLayers;
     }
     Extent3D mipSize(std::uint32_t mip) const;
+    void markUsed(std::uint64_t value) override;
     TextureDescriptor descriptor;
     VkImage handle = VK_NULL_HANDLE;
-    Allocation allocation;
-    bool ownsImage = true;  // false: a swapchain's
-    TextureState state;     // under the queue's mutex
+    Allocation allocation;  // none when it is placed in a heap
+    std::uint64_t bytes = 0;
+    std::function<void()> onRelease;
+    bool ownsImage = true;  // false: a swapchain's or a host's
+    // Under the queue's mutex. Shared, because a heap must know how a texture was used that is gone by now.
+    std::shared_ptr<TextureState> state = std::make_shared<TextureState>();
+    std::shared_ptr<TransientHeapObject> heap;
     std::mutex viewMutex;
     // A view keeps its texture, so the cache must not keep the view.
     std::vector<std::pair<TextureViewDescriptor, std::weak_ptr<TextureViewObject>>> views;
@@ -182,6 +191,8 @@ Result<void> needHandle(const H& handle, std::string_view what) {
     if (!handle) return invalid(ErrorCode::InvalidHandle, cat("An empty handle was given for ", what, "."));
     return {};
 }
+/// The checks of a texture's descriptor that hold for a host's image as well.
+Result<void> checkDescriptor(const TextureObject& texture);
 Result<void> needSameDevice(const Object& object, const DeviceObject& device);
 
 }  // namespace pelage::rhi::detail

@@ -19,8 +19,9 @@ PipelineObject::~PipelineObject() {
         if (known != device->pipelineCacheByKey.end() && known->second.expired())
             device->pipelineCacheByKey.erase(known);
     }
-    device->bury(lastUse,
-                 [pipeline = handle](DeviceObject& d) { d.functions.vkDestroyPipeline(d.handle, pipeline, nullptr); });
+    device->bury(lastUse, [pipeline = handle](DeviceObject& d) {
+        d.functions.vkDestroyPipeline(d.handle, pipeline, d.allocator);
+    });
 }
 
 VkPipelineShaderStageCreateInfo Stage::create() const {

@@ -7,7 +7,7 @@ namespace detail {
 QuerySetObject::~QuerySetObject() {
     if (handle == VK_NULL_HANDLE) return;
     device->bury(lastUse,
-                 [pool = handle](DeviceObject& d) { d.functions.vkDestroyQueryPool(d.handle, pool, nullptr); });
+                 [pool = handle](DeviceObject& d) { d.functions.vkDestroyQueryPool(d.handle, pool, d.allocator); });
 }
 
 namespace {
@@ -30,7 +30,7 @@ Result<QuerySet> makeQuerySet(const std::shared_ptr<DeviceObject>& device, const
                                   VK_QUERY_PIPELINE_STATISTIC_CLIPPING_PRIMITIVES_BIT |
                                   VK_QUERY_PIPELINE_STATISTIC_FRAGMENT_SHADER_INVOCATIONS_BIT |
                                   VK_QUERY_PIPELINE_STATISTIC_COMPUTE_SHADER_INVOCATIONS_BIT;
-    if (const auto r = device->functions.vkCreateQueryPool(device->handle, &info, nullptr, &object->handle);
+    if (const auto r = device->functions.vkCreateQueryPool(device->handle, &info, device->allocator, &object->handle);
         r != VK_SUCCESS)
         return forward(vulkanError(r, "vkCreateQueryPool", object->describe()));
     object->written.resize(d.count);

@@ -6,11 +6,11 @@
 namespace pelage::rhi {
 namespace detail {
 
-namespace {
-
 Error lostError(const DeviceObject& device) {
     return {ErrorKind::DeviceLost, ErrorCode::DeviceLost, cat("[Device \"", device.label, "\"] was lost."), {}};
 }
+
+namespace {
 
 Result<CommandSlot> takeSlot(DeviceObject& device) {
     auto& q = device.queue;
@@ -35,18 +35,20 @@ Result<CommandSlot> takeSlot(DeviceObject& device) {
     VkCommandPoolCreateInfo pool = {VK_STRUCTURE_TYPE_COMMAND_POOL_CREATE_INFO};
     pool.flags = VK_COMMAND_POOL_CREATE_TRANSIENT_BIT;
     pool.queueFamilyIndex = device.adapter->queueFamily;
-    if (const auto r = f.vkCreateCommandPool(device.handle, &pool, nullptr, &slot.pool); r != VK_SUCCESS)
+    if (const auto r = f.vkCreateCommandPool(device.handle, &pool, device.allocator, &slot.pool); r != VK_SUCCESS)
         return forward(vulkanError(r, "vkCreateCommandPool", "the queue"));
     VkCommandBufferAllocateInfo info = {VK_STRUCTURE_TYPE_COMMAND_BUFFER_ALLOCATE_INFO};
     info.commandPool = slot.pool;
     info.level = VK_COMMAND_BUFFER_LEVEL_PRIMARY;
     info.commandBufferCount = 1;
     if (const auto r = f.vkAllocateCommandBuffers(device.handle, &info, &slot.commands); r != VK_SUCCESS) {
-        f.vkDestroyCommandPool(device.handle, slot.pool, nullptr);
+        f.vkDestroyCommandPool(device.handle, slot.pool, device.allocator);
         return forward(vulkanError(r, "vkAllocateCommandBuffers", "the queue"));
     }
     return slot;
 }
+
+}  // namespace
 
 Result<void> checkBuffers(DeviceObject& device, std::span<const CommandBuffer> commandBuffers) {
     for (std::size_t i = 0; i < commandBuffers.size(); ++i) {
@@ -62,7 +64,31 @@ Result<void> checkBuffers(DeviceObject& device, std::span<const CommandBuffer> c
     return {};
 }
 
-}  // namespace
+void replayAll(DeviceObject& device, Replay& replay, std::span<const CommandBuffer> commandBuffers) {
+    auto& q = device.queue;
+    for (const auto& [object, owner] : q.uploads->weak)
+        if (auto held = owner.lock()) q.uploads->references.push_back(std::move(held));
+    q.uploads->dropDead();
+    if (!q.uploads->packets.empty()) {
+        q.uploads->label = "uploads";
+        replay.run(*q.uploads, nullptr);
+    }
+    for (const auto& c : commandBuffers) replay.run(c.get()->recording, &c.get()->counters);
+}
+
+void markSent(DeviceObject& device, std::uint64_t value, std::span<const CommandBuffer> commandBuffers) {
+    auto& q = device.queue;
+    q.submitted = value;
+    for (const auto& object : q.uploads->references) object->markUsed(value);
+    for (auto& chunk : q.staging)
+        if (chunk.value == 0 && chunk.used > 0) chunk.value = value;
+    *q.uploads = Recording();
+    for (const auto& c : commandBuffers) {
+        c.get()->submitted = true;
+        for (const auto& object : c.get()->recording.references) object->markUsed(value);
+        c.get()->recording = Recording();  // used once: its objects are free to go when the device is done
+    }
+}
 
 Result<Submission> submitLocked(DeviceObject& device, std::span<const CommandBuffer> commandBuffers,
                                 const SubmitExtras& extras) {
@@ -80,14 +106,7 @@ Result<Submission> submitLocked(DeviceObject& device, std::span<const CommandBuf
         return forward(vulkanError(r, "vkBeginCommandBuffer", "the queue"));
     }
     Replay replay(device, slot->commands);
-    for (const auto& [object, owner] : q.uploads->weak)
-        if (auto held = owner.lock()) q.uploads->references.push_back(std::move(held));
-    q.uploads->dropDead();
-    if (!q.uploads->packets.empty()) {
-        q.uploads->label = "uploads";
-        replay.run(*q.uploads, nullptr);
-    }
-    for (const auto& c : commandBuffers) replay.run(c.get()->recording, &c.get()->counters);
+    replayAll(device, replay, commandBuffers);
     replay.finish(extras.present);
     if (const auto r = f.vkEndCommandBuffer(slot->commands); r != VK_SUCCESS) {
         f.vkResetCommandPool(device.handle, slot->pool, 0);
@@ -109,25 +128,23 @@ Result<Submission> submitLocked(DeviceObject& device, std::span<const CommandBuf
     info.pCommandBufferInfos = &commands;
     info.signalSemaphoreInfoCount = extras.signal != VK_NULL_HANDLE ? 2 : 1;
     info.pSignalSemaphoreInfos = signals;
-    if (const auto r = f.vkQueueSubmit2(q.handle, 1, &info, VK_NULL_HANDLE); r != VK_SUCCESS) {
+    VkResult sent = VK_SUCCESS;
+    {
+        const HostLock lock(q);
+        sent = f.vkQueueSubmit2(q.handle, 1, &info, VK_NULL_HANDLE);
+    }
+    if (const auto r = sent; r != VK_SUCCESS) {
         f.vkResetCommandPool(device.handle, slot->pool, 0);
         q.idle.push_back(*slot);
         return forward(vulkanError(r, "vkQueueSubmit2", "the queue"));
     }
-    q.submitted = value;
+    device.began(value, false);
+    q.signalled = value;
     q.acquired.clear();
     slot->value = value;
     q.running.push_back(*slot);
-    for (const auto& object : q.uploads->references) object->markUsed(value);
-    for (auto& chunk : q.staging)
-        if (chunk.value == 0 && chunk.used > 0) chunk.value = value;
-    *q.uploads = Recording();
     if (extras.present != nullptr) extras.present->markUsed(value);
-    for (const auto& c : commandBuffers) {
-        c.get()->submitted = true;
-        for (const auto& object : c.get()->recording.references) object->markUsed(value);
-        c.get()->recording = Recording();  // used once: its objects are free to go when the device is done
-    }
+    markSent(device, value, commandBuffers);
     return Submission{value};
 }
 
@@ -153,7 +170,7 @@ Result<bool> Queue::wait(Submission submission, std::uint64_t timeoutNs) const {
     std::uint64_t last = 0;
     {
         const std::lock_guard lock(device_->queue.mutex);
-        last = device_->queue.submitted;
+        last = device_->queue.signalled;
     }
     if (submission.value > last)
         return device_->reported<bool>(
@@ -176,7 +193,7 @@ Result<void> Device::waitIdle() const {
     Result<Submission> last;
     {
         const std::lock_guard lock(object_->queue.mutex);
-        last->value = object_->queue.submitted;
+        last->value = object_->queue.signalled;
         // Writes are work, too.
         if (!object_->queue.uploads->packets.empty()) last = detail::submitLocked(*object_, {}, {});
     }

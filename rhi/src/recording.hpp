@@ -86,6 +86,11 @@ struct DrawIndexed {
 struct Dispatch {
     std::uint32_t x = 0, y = 0, z = 0;
 };
+struct Indirect {  // the arguments lie in a buffer
+    enum class Command : std::uint8_t { Draw, DrawIndexed, Dispatch } command = Command::Draw;
+    BufferObject* buffer = nullptr;
+    std::uint64_t offset = 0;
+};
 struct CopyBuffer {
     BufferObject* source = nullptr;
     BufferObject* destination = nullptr;
@@ -131,8 +136,8 @@ using Packet =
     std::variant<packet::Scope, packet::BeginRendering, packet::EndRendering, packet::BeginLabel, packet::EndLabel,
                  packet::BindPipeline, packet::BindSet, packet::Push, packet::BindVertexBuffer, packet::BindIndexBuffer,
                  packet::Viewport, packet::Scissor, packet::LineWidth, packet::Draw, packet::DrawIndexed,
-                 packet::Dispatch, packet::CopyBuffer, packet::CopyBufferImage, packet::CopyImage, packet::Fill,
-                 packet::Timestamp, packet::ResolveQueries, packet::Upload>;
+                 packet::Dispatch, packet::Indirect, packet::CopyBuffer, packet::CopyBufferImage, packet::CopyImage,
+                 packet::Fill, packet::Timestamp, packet::ResolveQueries, packet::Upload>;
 
 struct Recording {
     std::string label;
@@ -177,6 +182,9 @@ public:
     void run(const Recording& recording, CommandBuffer::Counters* counters);
     /// After everything: makes what was written visible to the host, and one texture ready to present.
     void finish(TextureObject* present);
+    /// Brings a host's resource into the state in which it is wanted back; the barrier stands in finish().
+    void handOver(TextureObject& texture, const Access& access);
+    void handOver(BufferObject& buffer, const Access& access);
 
 private:
     template <class P>

@@ -250,8 +250,8 @@ Result<void> build(const RenderPipelineDescriptor& d, RenderPipelineObject& obje
     info.pColorBlendState = &blend;
     info.pDynamicState = &dynamic;
     info.layout = object.layout->handle;
-    const auto r = device.functions.vkCreateGraphicsPipelines(device.handle, device.pipelineCache, 1, &info, nullptr,
-                                                              &object.handle);
+    const auto r = device.functions.vkCreateGraphicsPipelines(device.handle, device.pipelineCache, 1, &info,
+                                                              device.allocator, &object.handle);
     if (r != VK_SUCCESS) return forward(vulkanError(r, "vkCreateGraphicsPipelines", object.describe()));
     return {};
 }

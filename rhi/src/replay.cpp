@@ -2,6 +2,7 @@
 // From packets to Vulkan. The only place that records commands.
 #include "device_object.hpp"
 #include "recording.hpp"
+#include "transient_heap.hpp"
 
 namespace pelage::rhi::detail {
 
@@ -101,7 +102,8 @@ void Replay::play(const P& p) {
             if (use.object == nullptr) continue;  // an upload whose destination is gone
             if (use.texture) {
                 auto& texture = static_cast<TextureObject&>(*use.object);
-                batch_.use(texture.state, texture.handle, use.range, use.access);
+                if (!texture.state->current) takeOver(texture, use.access, batch_);
+                batch_.use(*texture.state, texture.handle, use.range, use.access);
             } else {
                 auto& buffer = static_cast<BufferObject&>(*use.object);
                 batch_.use(buffer.state, use.access);
@@ -145,6 +147,13 @@ void Replay::play(const P& p) {
         f.vkCmdDrawIndexed(commands_, p.indices, p.instances, p.firstIndex, p.baseVertex, p.firstInstance);
     } else if constexpr (std::is_same_v<P, Dispatch>) {
         f.vkCmdDispatch(commands_, p.x, p.y, p.z);
+    } else if constexpr (std::is_same_v<P, Indirect>) {
+        if (p.command == Indirect::Command::Draw)
+            f.vkCmdDrawIndirect(commands_, p.buffer->handle, p.offset, 1, sizeof(VkDrawIndirectCommand));
+        else if (p.command == Indirect::Command::DrawIndexed)
+            f.vkCmdDrawIndexedIndirect(commands_, p.buffer->handle, p.offset, 1, sizeof(VkDrawIndexedIndirectCommand));
+        else
+            f.vkCmdDispatchIndirect(commands_, p.buffer->handle, p.offset);
     } else if constexpr (std::is_same_v<P, CopyBuffer>) {
         f.vkCmdCopyBuffer(commands_, p.source->handle, p.destination->handle, 1, &p.region);
     } else if constexpr (std::is_same_v<P, CopyBufferImage>) {
@@ -188,8 +197,8 @@ void Replay::run(const Recording& recording, CommandBuffer::Counters* counters) 
 
 void Replay::finish(TextureObject* present) {
     if (present != nullptr) {
-        const Range all{0, present->state.mips, 0, present->state.layers};
-        batch_.use(present->state, present->handle, all, accessOf(UseKind::Present, 0, false));
+        const Range all{0, present->state->mips, 0, present->state->layers};
+        batch_.use(*present->state, present->handle, all, accessOf(UseKind::Present, 0, false));
     }
     flushBarriers();
     if (!hostReads_) return;

@@ -9,7 +9,7 @@ namespace detail {
 SamplerObject::~SamplerObject() {
     if (handle == VK_NULL_HANDLE) return;
     device->bury(lastUse,
-                 [sampler = handle](DeviceObject& d) { d.functions.vkDestroySampler(d.handle, sampler, nullptr); });
+                 [sampler = handle](DeviceObject& d) { d.functions.vkDestroySampler(d.handle, sampler, d.allocator); });
 }
 
 namespace {
@@ -40,7 +40,7 @@ Result<Sampler> makeSampler(const std::shared_ptr<DeviceObject>& device, const S
     info.compareOp = toVk(d.compare);
     info.anisotropyEnable = d.maxAnisotropy > 1 && contains(device->info.features, Feature::AnisotropicFiltering);
     info.maxAnisotropy = std::min(d.maxAnisotropy, 16.0F);  // every device with the feature has at least 16
-    if (const auto r = device->functions.vkCreateSampler(device->handle, &info, nullptr, &object->handle);
+    if (const auto r = device->functions.vkCreateSampler(device->handle, &info, device->allocator, &object->handle);
         r != VK_SUCCESS)
         return forward(vulkanError(r, "vkCreateSampler", object->describe()));
     device->nameObject(VK_OBJECT_TYPE_SAMPLER, object->handle, d.label);

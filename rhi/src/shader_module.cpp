@@ -7,8 +7,9 @@ namespace detail {
 
 ShaderModuleObject::~ShaderModuleObject() {
     if (handle == VK_NULL_HANDLE) return;
-    device->bury(lastUse,
-                 [module = handle](DeviceObject& d) { d.functions.vkDestroyShaderModule(d.handle, module, nullptr); });
+    device->bury(lastUse, [module = handle](DeviceObject& d) {
+        d.functions.vkDestroyShaderModule(d.handle, module, d.allocator);
+    });
 }
 
 namespace {
@@ -35,7 +36,8 @@ Result<ShaderModule> makeShaderModule(const std::shared_ptr<DeviceObject>& devic
     VkShaderModuleCreateInfo info = {VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO};
     info.codeSize = d.code.size() * 4;
     info.pCode = d.code.data();
-    if (const auto r = device->functions.vkCreateShaderModule(device->handle, &info, nullptr, &object->handle);
+    if (const auto r =
+            device->functions.vkCreateShaderModule(device->handle, &info, device->allocator, &object->handle);
         r != VK_SUCCESS)
         return forward(vulkanError(r, "vkCreateShaderModule", object->describe()));
     device->nameObject(VK_OBJECT_TYPE_SHADER_MODULE, object->handle, d.label);

@@ -26,17 +26,20 @@ void SurfaceObject::release() {
     const auto& f = device->functions;
     const std::lock_guard lock(device->queue.mutex);
     // Presentation has no fence of its own, so the device is drained; this happens on resize and at the end.
-    f.vkDeviceWaitIdle(device->handle);
+    {
+        const HostLock hostLock(device->queue);
+        f.vkDeviceWaitIdle(device->handle);
+    }
     std::erase_if(device->queue.acquired, [&](const VkSemaphoreSubmitInfo& info) {
         return std::any_of(images.begin(), images.end(), [&](const Image& i) { return i.acquired == info.semaphore; });
     });
     for (auto& image : images) {
         if (image.texture) image.texture->handle = VK_NULL_HANDLE;  // a texture kept by the host has lost its image
-        f.vkDestroySemaphore(device->handle, image.acquired, nullptr);
-        f.vkDestroySemaphore(device->handle, image.rendered, nullptr);
+        f.vkDestroySemaphore(device->handle, image.acquired, device->allocator);
+        f.vkDestroySemaphore(device->handle, image.rendered, device->allocator);
     }
-    f.vkDestroySemaphore(device->handle, spare, nullptr);
-    f.vkDestroySwapchainKHR(device->handle, swapchain, nullptr);
+    f.vkDestroySemaphore(device->handle, spare, device->allocator);
+    f.vkDestroySwapchainKHR(device->handle, swapchain, device->allocator);
     images.clear();
     spare = VK_NULL_HANDLE;
     swapchain = VK_NULL_HANDLE;
@@ -122,14 +125,14 @@ Result<void> SurfaceObject::configure(const std::shared_ptr<DeviceObject>& owner
     info.presentMode = chooseMode(*instance, adapter.handle, handle, wanted.vsync);
     info.clipped = VK_TRUE;
     const auto& f = device->functions;
-    if (const auto r = f.vkCreateSwapchainKHR(device->handle, &info, nullptr, &swapchain); r != VK_SUCCESS)
+    if (const auto r = f.vkCreateSwapchainKHR(device->handle, &info, device->allocator, &swapchain); r != VK_SUCCESS)
         return forward(vulkanError(r, "vkCreateSwapchainKHR", "the surface"));
     std::uint32_t count = 0;
     f.vkGetSwapchainImagesKHR(device->handle, swapchain, &count, nullptr);
     std::vector<VkImage> handles(count);
     f.vkGetSwapchainImagesKHR(device->handle, swapchain, &count, handles.data());
     VkSemaphoreCreateInfo semaphore = {VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
-    VkResult r = f.vkCreateSemaphore(device->handle, &semaphore, nullptr, &spare);
+    VkResult r = f.vkCreateSemaphore(device->handle, &semaphore, device->allocator, &spare);
     for (std::uint32_t i = 0; i < count && r == VK_SUCCESS; ++i) {
         auto& image = images.emplace_back();
         image.texture = std::make_shared<TextureObject>(device, "Texture", cat("surface image ", i));
@@ -138,8 +141,8 @@ Result<void> SurfaceObject::configure(const std::shared_ptr<DeviceObject>& owner
         t.handle = handles[i];
         t.ownsImage = false;
         device->nameObject(VK_OBJECT_TYPE_IMAGE, handles[i], t.label);
-        r = f.vkCreateSemaphore(device->handle, &semaphore, nullptr, &image.acquired);
-        if (r == VK_SUCCESS) r = f.vkCreateSemaphore(device->handle, &semaphore, nullptr, &image.rendered);
+        r = f.vkCreateSemaphore(device->handle, &semaphore, device->allocator, &image.acquired);
+        if (r == VK_SUCCESS) r = f.vkCreateSemaphore(device->handle, &semaphore, device->allocator, &image.rendered);
     }
     if (r != VK_SUCCESS) {
         release();
@@ -171,8 +174,7 @@ Result<Texture> SurfaceObject::acquire() {
     wait.stageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
     device->queue.acquired.push_back(wait);
     // What was presented is not kept: the first use may throw the contents away.
-    images[index].texture->state.states.assign(1, AccessState{});
-    images[index].texture->state.states[0].writeStages = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+    images[index].texture->state->discard(VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT);
     return Texture(images[index].texture);
 }
 
@@ -190,6 +192,7 @@ Result<bool> SurfaceObject::present() {
     info.swapchainCount = 1;
     info.pSwapchains = &swapchain;
     info.pImageIndices = &index;
+    const HostLock hostLock(device->queue);
     const auto r = device->functions.vkQueuePresentKHR(device->queue.handle, &info);
     if (r == VK_ERROR_OUT_OF_DATE_KHR || r == VK_SUBOPTIMAL_KHR)
         outdated = true;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "device_object.hpp"
+#include "transient_heap.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -8,18 +9,25 @@ namespace pelage::rhi {
 namespace detail {
 
 TextureObject::~TextureObject() {
+    if (handle != VK_NULL_HANDLE && onRelease)
+        device->bury(lastUse, [tell = std::move(onRelease)](DeviceObject&) { tell(); });
     if (handle == VK_NULL_HANDLE || !ownsImage) return;
     --device->liveTextures;
     device->bury(lastUse, [image = handle, memory = allocation](DeviceObject& d) {
-        d.functions.vkDestroyImage(d.handle, image, nullptr);
+        d.functions.vkDestroyImage(d.handle, image, d.allocator);
         d.memory.release(memory);
     });
+}
+
+void TextureObject::markUsed(std::uint64_t value) {
+    Object::markUsed(value);
+    if (heap) heap->markUsed(value);
 }
 
 TextureViewObject::~TextureViewObject() {
     if (handle == VK_NULL_HANDLE) return;
     device->bury(lastUse,
-                 [view = handle](DeviceObject& d) { d.functions.vkDestroyImageView(d.handle, view, nullptr); });
+                 [view = handle](DeviceObject& d) { d.functions.vkDestroyImageView(d.handle, view, d.allocator); });
 }
 
 Extent3D TextureObject::mipSize(std::uint32_t mip) const {
@@ -28,11 +36,9 @@ Extent3D TextureObject::mipSize(std::uint32_t mip) const {
             descriptor.dimension == TextureDimension::E3D ? std::max(s.depthOrArrayLayers >> mip, 1U) : 1U};
 }
 
-namespace {
-
-Result<void> checkTexture(const DeviceObject& device, const TextureObject& object, const VkImageCreateInfo& info) {
+Result<void> checkDescriptor(const TextureObject& object) {
     const auto& d = object.descriptor;
-    const auto& limits = device.info.limits;
+    const auto& limits = object.device->info.limits;
     const bool volume = d.dimension == TextureDimension::E3D;
     const auto bad = [&](ErrorCode code, auto&&... parts) { return invalid(code, cat(object.describe(), parts...)); };
     if (d.size.width == 0 || d.size.height == 0 || d.size.depthOrArrayLayers == 0)
@@ -57,6 +63,16 @@ Result<void> checkTexture(const DeviceObject& device, const TextureObject& objec
     if (d.cubeCompatible && (volume || d.size.width != d.size.height || d.size.depthOrArrayLayers % 6 != 0))
         return bad(ErrorCode::InvalidSize, " is ", d.size.width, 'x', d.size.height, " with ",
                    d.size.depthOrArrayLayers, " layers; a cube is square and has 6 layers or a multiple.");
+    return {};
+}
+
+namespace {
+
+Result<void> checkTexture(const DeviceObject& device, const TextureObject& object, const VkImageCreateInfo& info) {
+    if (auto ok = checkDescriptor(object); !ok) return ok;
+    const auto& d = object.descriptor;
+    const bool volume = d.dimension == TextureDimension::E3D;
+    const auto bad = [&](ErrorCode code, auto&&... parts) { return invalid(code, cat(object.describe(), parts...)); };
     VkPhysicalDeviceImageFormatInfo2 query = {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_IMAGE_FORMAT_INFO_2};
     query.format = info.format;
     query.type = info.imageType;
@@ -87,10 +103,7 @@ Result<void> checkTexture(const DeviceObject& device, const TextureObject& objec
     return {};
 }
 
-Result<Texture> makeTexture(const std::shared_ptr<DeviceObject>& device, const TextureDescriptor& descriptor) {
-    auto object = std::make_shared<TextureObject>(device, "Texture", descriptor.label);
-    object->descriptor = descriptor;
-    const auto& d = descriptor;
+VkImageCreateInfo imageInfo(const TextureDescriptor& d) {
     const bool volume = d.dimension == TextureDimension::E3D;
     VkImageCreateInfo info = {VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
     info.flags = d.cubeCompatible ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0;
@@ -103,34 +116,60 @@ Result<Texture> makeTexture(const std::shared_ptr<DeviceObject>& device, const T
     info.tiling = VK_IMAGE_TILING_OPTIMAL;
     info.usage = toVk(d.usage, d.format);
     info.initialLayout = VK_IMAGE_LAYOUT_UNDEFINED;
+    return info;
+}
+
+VkMemoryRequirements requirements(const DeviceObject& device, const VkImageCreateInfo& info) {
+    VkDeviceImageMemoryRequirements query = {VK_STRUCTURE_TYPE_DEVICE_IMAGE_MEMORY_REQUIREMENTS};
+    query.pCreateInfo = &info;
+    VkMemoryRequirements2 needs = {VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2};
+    device.functions.vkGetDeviceImageMemoryRequirements(device.handle, &query, &needs);
+    return needs.memoryRequirements;
+}
+
+Result<Texture> makeTexture(const std::shared_ptr<DeviceObject>& device, const TextureDescriptor& descriptor) {
+    auto object = std::make_shared<TextureObject>(device, "Texture", descriptor.label);
+    object->descriptor = descriptor;
+    const auto& d = descriptor;
+    const auto info = imageInfo(d);
     if (auto ok = checkTexture(*device, *object, info); !ok) return forward(ok.error());
+    const auto needs = requirements(*device, info);
+    if (auto ok = checkPlace(*object, needs); !ok) return forward(ok.error());
     const auto& vk = device->functions;
     VkImage image = VK_NULL_HANDLE;
-    if (const auto r = vk.vkCreateImage(device->handle, &info, nullptr, &image); r != VK_SUCCESS)
+    if (const auto r = vk.vkCreateImage(device->handle, &info, device->allocator, &image); r != VK_SUCCESS)
         return forward(vulkanError(r, "vkCreateImage", object->describe()));
-    VkImageMemoryRequirementsInfo2 query = {VK_STRUCTURE_TYPE_IMAGE_MEMORY_REQUIREMENTS_INFO_2};
-    query.image = image;
-    VkMemoryRequirements2 needs = {VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2};
-    vk.vkGetImageMemoryRequirements2(device->handle, &query, &needs);
-    auto memory = device->memory.allocate(needs.memoryRequirements, MemoryUse::Device, true, object->describe());
-    if (!memory) {
-        vk.vkDestroyImage(device->handle, image, nullptr);
-        return forward(memory.error());
-    }
     VkBindImageMemoryInfo bind = {VK_STRUCTURE_TYPE_BIND_IMAGE_MEMORY_INFO};
     bind.image = image;
-    bind.memory = memory->memory;
-    bind.memoryOffset = memory->offset;
+    Allocation own;
+    if (d.heap) {
+        const auto& shared = d.heap.get()->allocation;
+        bind.memory = shared.memory;
+        bind.memoryOffset = shared.offset + d.heapOffset;
+    } else {
+        auto memory = device->memory.allocate(needs, MemoryUse::Device, true, object->describe());
+        if (!memory) {
+            vk.vkDestroyImage(device->handle, image, device->allocator);
+            return forward(memory.error());
+        }
+        own = *memory;
+        bind.memory = own.memory;
+        bind.memoryOffset = own.offset;
+    }
     if (const auto r = vk.vkBindImageMemory2(device->handle, 1, &bind); r != VK_SUCCESS) {
-        vk.vkDestroyImage(device->handle, image, nullptr);
-        device->memory.release(*memory);
+        vk.vkDestroyImage(device->handle, image, device->allocator);
+        device->memory.release(own);
         return forward(vulkanError(r, "vkBindImageMemory2", object->describe()));
     }
     object->handle = image;
-    object->allocation = *memory;
-    object->state.mips = d.mipLevelCount;
-    object->state.layers = object->layers();
-    object->state.aspects = aspectsOf(d.format);
+    object->allocation = own;
+    object->bytes = needs.size;
+    object->heap = d.heap.shared();
+    object->descriptor.heap = {};  // held once
+    object->state->mips = d.mipLevelCount;
+    object->state->layers = object->layers();
+    object->state->aspects = aspectsOf(d.format);
+    object->state->current = !object->heap;
     ++device->liveTextures;
     device->nameObject(VK_OBJECT_TYPE_IMAGE, image, d.label);
     return Texture(std::move(object));
@@ -210,7 +249,7 @@ Result<std::shared_ptr<TextureViewObject>> makeView(const std::shared_ptr<Textur
                                       : d.aspect == TextureAspect::StencilOnly ? VK_IMAGE_ASPECT_STENCIL_BIT
                                                                                : VK_IMAGE_ASPECT_DEPTH_BIT;
     info.subresourceRange = {aspect, d.baseMipLevel, d.mipLevelCount, d.baseArrayLayer, d.arrayLayerCount};
-    if (const auto r = device->functions.vkCreateImageView(device->handle, &info, nullptr, &view->handle);
+    if (const auto r = device->functions.vkCreateImageView(device->handle, &info, device->allocator, &view->handle);
         r != VK_SUCCESS)
         return forward(vulkanError(r, "vkCreateImageView", view->describe()));
     device->nameObject(VK_OBJECT_TYPE_IMAGE_VIEW, view->handle, view->label);
@@ -226,6 +265,17 @@ Result<Texture> Device::createTexture(const TextureDescriptor& descriptor) const
     return object_->reported(detail::makeTexture(object_, descriptor));
 }
 
+Result<MemoryRequirements> Device::memoryRequirements(const TextureDescriptor& descriptor) const {
+    if (auto ok = detail::needHandle(*this, "the device"); !ok) return detail::forward(ok.error());
+    detail::TextureObject object(object_, "Texture", descriptor.label);
+    object.descriptor = descriptor;
+    const auto info = detail::imageInfo(descriptor);
+    if (auto ok = detail::checkTexture(*object_, object, info); !ok)
+        return object_->reported<MemoryRequirements>(detail::forward(ok.error()));
+    const auto needs = detail::requirements(*object_, info);
+    return MemoryRequirements{needs.size, needs.alignment};
+}
+
 const std::string& Texture::label() const {
     return object_->label;
 }
@@ -233,7 +283,7 @@ const TextureDescriptor& Texture::descriptor() const {
     return object_->descriptor;
 }
 std::uint64_t Texture::memoryBytes() const {
-    return object_->allocation.size;
+    return object_->bytes;
 }
 Result<TextureView> Texture::createView(const TextureViewDescriptor& descriptor) const {
     if (auto ok = detail::needHandle(*this, "the texture"); !ok) return detail::forward(ok.error());

@@ -11,6 +11,8 @@ const char* name(UseKind kind) {
             return "a vertex buffer";
         case UseKind::IndexBuffer:
             return "an index buffer";
+        case UseKind::Indirect:
+            return "the arguments of an indirect command";
         case UseKind::UniformBuffer:
             return "a uniform buffer";
         case UseKind::StorageBufferRead:
@@ -69,6 +71,8 @@ Access accessOf(UseKind kind, VkPipelineStageFlags2 shaderStages, bool depthForm
             return {VK_PIPELINE_STAGE_2_VERTEX_ATTRIBUTE_INPUT_BIT, VK_ACCESS_2_VERTEX_ATTRIBUTE_READ_BIT, none, false};
         case UseKind::IndexBuffer:
             return {VK_PIPELINE_STAGE_2_INDEX_INPUT_BIT, VK_ACCESS_2_INDEX_READ_BIT, none, false};
+        case UseKind::Indirect:
+            return {VK_PIPELINE_STAGE_2_DRAW_INDIRECT_BIT, VK_ACCESS_2_INDIRECT_COMMAND_READ_BIT, none, false};
         case UseKind::UniformBuffer:
             return {shaderStages, VK_ACCESS_2_UNIFORM_READ_BIT, none, false};
         case UseKind::StorageBufferRead:
@@ -151,11 +155,29 @@ void BarrierBatch::use(AccessState& state, const Access& access) {
     Access plain = access;
     plain.layout = state.layout;  // buffers have none
     if (!step(state, plain, t)) return;
+    memory(t.srcStageMask, t.srcAccessMask, {t.dstStageMask, t.dstAccessMask, VK_IMAGE_LAYOUT_UNDEFINED, false});
+}
+
+void BarrierBatch::memory(VkPipelineStageFlags2 from, VkAccessFlags2 written, const Access& to) {
     memory_ = true;
-    memoryBarrier_.srcStageMask |= t.srcStageMask;
-    memoryBarrier_.srcAccessMask |= t.srcAccessMask;
-    memoryBarrier_.dstStageMask |= t.dstStageMask;
-    memoryBarrier_.dstAccessMask |= t.dstAccessMask;
+    memoryBarrier_.srcStageMask |= from;
+    memoryBarrier_.srcAccessMask |= written;
+    memoryBarrier_.dstStageMask |= to.stages;
+    memoryBarrier_.dstAccessMask |= to.access;
+}
+
+AccessState TextureState::history() const {
+    AccessState all;
+    for (const auto& s : states) {
+        all.writeStages |= s.writeStages;
+        all.readStages |= s.readStages;
+        all.writeAccess |= s.writeAccess;
+    }
+    return all;
+}
+
+void TextureState::discard(VkPipelineStageFlags2 stages) {
+    states.assign(1, AccessState{VK_IMAGE_LAYOUT_UNDEFINED, stages, 0, 0, 0});
 }
 
 void BarrierBatch::use(TextureState& texture, VkImage image, const Range& range, const Access& access) {
@@ -163,11 +185,7 @@ void BarrierBatch::use(TextureState& texture, VkImage image, const Range& range,
         VkImageMemoryBarrier2 t = {VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2};
         if (!step(state, access, t)) return;
         if (t.oldLayout == t.newLayout) {
-            memory_ = true;
-            memoryBarrier_.srcStageMask |= t.srcStageMask;
-            memoryBarrier_.srcAccessMask |= t.srcAccessMask;
-            memoryBarrier_.dstStageMask |= t.dstStageMask;
-            memoryBarrier_.dstAccessMask |= t.dstAccessMask;
+            memory(t.srcStageMask, t.srcAccessMask, {t.dstStageMask, t.dstAccessMask, t.newLayout, false});
             return;
         }
         t.srcQueueFamilyIndex = t.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
@@ -203,11 +221,9 @@ void BarrierBatch::use(TextureState& texture, VkImage image, const Range& range,
 }
 
 void BarrierBatch::full() {
-    memory_ = true;
-    memoryBarrier_.srcStageMask |= VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-    memoryBarrier_.dstStageMask |= VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
-    memoryBarrier_.srcAccessMask |= VK_ACCESS_2_MEMORY_WRITE_BIT;
-    memoryBarrier_.dstAccessMask |= VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+    memory(VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_WRITE_BIT,
+           {VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT,
+            VK_IMAGE_LAYOUT_UNDEFINED, false});
 }
 
 void BarrierBatch::clear() {

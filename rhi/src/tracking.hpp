@@ -18,6 +18,7 @@ namespace pelage::rhi::detail {
 enum class UseKind : std::uint8_t {
     VertexBuffer,
     IndexBuffer,
+    Indirect,
     UniformBuffer,
     StorageBufferRead,
     StorageBufferWrite,
@@ -68,6 +69,13 @@ struct TextureState {
     std::uint32_t mips = 1, layers = 1;
     VkImageAspectFlags aspects = VK_IMAGE_ASPECT_COLOR_BIT;
     std::vector<AccessState> states = std::vector<AccessState>(1);
+    /// False while another texture of the same heap owns bytes of this one; its contents are then undefined.
+    bool current = true;
+
+    /// Everything that has used it, as one: what whoever takes its memory over must wait for.
+    AccessState history() const;
+    /// Contents undefined; the next use waits for `stages`.
+    void discard(VkPipelineStageFlags2 stages);
 };
 
 /// What one scope boundary needs.
@@ -75,6 +83,8 @@ class BarrierBatch {
 public:
     void use(AccessState& state, const Access& access);
     void use(TextureState& state, VkImage image, const Range& range, const Access& access);
+    /// One memory barrier, whatever it is about.
+    void memory(VkPipelineStageFlags2 from, VkAccessFlags2 written, const Access& to);
     /// Everything waits for everything.
     void full();
     bool empty() const { return !memory_ && images_.empty(); }

@@ -32,7 +32,7 @@ Result<Staged> stage(DeviceObject& device, std::span<const std::byte> data) {
     // Chunks made for one large write are given back once they are idle.
     std::erase_if(chunks, [&](const StagingChunk& c) {
         if (c.allocation.size <= 2 * chunkSize || c.used != 0 || &c == chosen) return false;
-        device.functions.vkDestroyBuffer(device.handle, c.buffer, nullptr);
+        device.functions.vkDestroyBuffer(device.handle, c.buffer, device.allocator);
         device.memory.release(c.allocation);
         return true;
     });
@@ -50,7 +50,7 @@ Result<Staged> stage(DeviceObject& device, std::span<const std::byte> data) {
         info.size = std::max<std::uint64_t>(chunkSize, data.size());
         info.usage = VK_BUFFER_USAGE_TRANSFER_SRC_BIT;
         const auto& f = device.functions;
-        if (const auto r = f.vkCreateBuffer(device.handle, &info, nullptr, &chunk.buffer); r != VK_SUCCESS)
+        if (const auto r = f.vkCreateBuffer(device.handle, &info, device.allocator, &chunk.buffer); r != VK_SUCCESS)
             return forward(vulkanError(r, "vkCreateBuffer", "staging memory"));
         VkBufferMemoryRequirementsInfo2 query = {VK_STRUCTURE_TYPE_BUFFER_MEMORY_REQUIREMENTS_INFO_2};
         query.buffer = chunk.buffer;
@@ -58,7 +58,7 @@ Result<Staged> stage(DeviceObject& device, std::span<const std::byte> data) {
         f.vkGetBufferMemoryRequirements2(device.handle, &query, &needs);
         auto memory = device.memory.allocate(needs.memoryRequirements, MemoryUse::Upload, false, "staging memory");
         if (!memory) {
-            f.vkDestroyBuffer(device.handle, chunk.buffer, nullptr);
+            f.vkDestroyBuffer(device.handle, chunk.buffer, device.allocator);
             return forward(memory.error());
         }
         chunk.allocation = *memory;
@@ -67,7 +67,7 @@ Result<Staged> stage(DeviceObject& device, std::span<const std::byte> data) {
         bind.memory = memory->memory;
         bind.memoryOffset = memory->offset;
         if (const auto r = f.vkBindBufferMemory2(device.handle, 1, &bind); r != VK_SUCCESS) {
-            f.vkDestroyBuffer(device.handle, chunk.buffer, nullptr);
+            f.vkDestroyBuffer(device.handle, chunk.buffer, device.allocator);
             device.memory.release(*memory);
             return forward(vulkanError(r, "vkBindBufferMemory2", "staging memory"));
         }

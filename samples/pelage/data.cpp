@@ -18,11 +18,22 @@ fs::path sceneDirectory() {
     return fs::path(dataDirectory()) / "samples" / "scenes";
 }
 
+/// share/pelage beside the bin/ this program runs from; empty when there is none.
+fs::path installedData() {
+    std::error_code error;
+    const fs::path program = fs::read_symlink("/proc/self/exe", error);
+    if (error) return {};
+    const fs::path data = program.parent_path().parent_path() / "share" / "pelage";
+    return fs::is_directory(data / "materials", error) ? data : fs::path();
+}
+
 }  // namespace
 
 std::string dataDirectory() {
     const char* chosen = std::getenv("PELAGE_DATA");
-    return chosen && *chosen ? chosen : PELAGE_DATA_DIR;
+    if (chosen && *chosen) return chosen;
+    const fs::path installed = installedData();
+    return installed.empty() ? PELAGE_DATA_DIR : installed.string();
 }
 
 std::vector<std::string> sceneNames() {

@@ -7,7 +7,8 @@
 
 namespace pelage::app {
 
-/// PELAGE_DATA of the environment, else the source directory this program was built from.
+/// PELAGE_DATA of the environment, else what was installed with this program (../share/pelage from where it lies), else
+/// the source directory it was built from.
 std::string dataDirectory();
 /// Names of the shipped scenes, sorted.
 std::vector<std::string> sceneNames();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What the linker makes of a good tree: order, versions, sizes, load and store, lifetimes, shared memory.
+// What the linker makes of a good tree: order, versions, sizes, load and store, lifetimes, places in the heap.
 #include "tree_text.hpp"
 
 #include <gtest/gtest.h>
@@ -150,10 +150,10 @@ TEST(Plan, LifetimesAndUsage) {
               rhi::TextureUsage::StorageBinding | rhi::TextureUsage::TextureBinding);
 }
 
-TEST(Plan, ImagesOfOneShapeShareATextureWhenTheirLivesDoNotOverlap) {
-    // A chain of equal images: 1 -> 2 -> 3 -> 4; the third may lie where the first was.
+// A chain of equal images, 0 -> 1 -> 2 -> 3, each read by the next pass only.
+std::string chain(int count) {
     std::string attachments, passes, before = "host.In";
-    for (int i = 0; i < 4; ++i) {
+    for (int i = 0; i < count; ++i) {
         const std::string n = std::to_string(i);
         attachments +=
             (i ? "," : "") + std::string("\"A") + n + R"(": { "format": "RGBA16Float", "size": { "frame": 1 } })";
@@ -164,18 +164,111 @@ TEST(Plan, ImagesOfOneShapeShareATextureWhenTheirLivesDoNotOverlap) {
                   before + R"(", "out": "att.A)" + n + "\" } }";
         before = "P" + n + ".out";
     }
-    const std::string text =
-        R"({ "format": "pelage.passtree/1", "name": "Chain", "imports": { "In": { "kind": "image", "access": "read" } },
+    return R"({ "format": "pelage.passtree/1", "name": "Chain", "imports": { "In": { "kind": "image", "access": "read" } },
         "attachments": {)" +
-        attachments + R"(}, "passes": [)" + passes + R"(], "exports": { "Out": { "from": "P3.out" } } })";
-    HostDescription lent{.extent = {16, 16, 1}};
-    lent.imports["In"] = {true, rhi::TextureFormat::RGBA16Float, {16, 16, 1}, 1};
-    const Plan made = plan(text, lent);
-    EXPECT_EQ(resource(made, "att.A0")->allocation, resource(made, "att.A2")->allocation);
-    EXPECT_NE(resource(made, "att.A0")->allocation, resource(made, "att.A1")->allocation);
-    EXPECT_NE(resource(made, "att.A3")->allocation, resource(made, "att.A1")->allocation) << "an export has its own";
-    EXPECT_EQ(made.allocations, 3U);
-    EXPECT_EQ(made.allocatedBytes, 3ULL * 16 * 16 * 8);
+           attachments + R"(}, "passes": [)" + passes + R"(], "exports": { "Out": { "from": ")" + before + "\" } } }";
+}
+
+HostDescription chainHost() {
+    HostDescription lent{.extent = {256, 256, 1}};
+    lent.imports["In"] = {true, rhi::TextureFormat::RGBA16Float, {256, 256, 1}, 1};
+    return lent;
+}
+
+TEST(Plan, ImagesShareBytesOfTheHeapWhenTheirLivesDoNotMeet) {
+    const Plan made = plan(chain(4), chainHost());
+    constexpr std::uint64_t one = 256ULL * 256 * 8;
+    EXPECT_EQ(resource(made, "att.A0")->heapOffset, resource(made, "att.A2")->heapOffset);
+    EXPECT_NE(resource(made, "att.A0")->heapOffset, resource(made, "att.A1")->heapOffset);
+    EXPECT_NE(resource(made, "att.A3")->heapOffset, resource(made, "att.A2")->heapOffset);
+    EXPECT_EQ(made.naiveBytes, 4 * one);
+    EXPECT_EQ(made.heapBytes, 2 * one);
+    EXPECT_EQ(made.peakBytes, 2 * one);
+    EXPECT_EQ(resource(made, "host.In")->heapOffset, notPlaced) << "what the host lends is where it is";
+}
+
+TEST(Plan, SizesAndAlignmentsComeFromTheHost) {
+    HostDescription lent = chainHost();
+    lent.memory = [](const PlanResource& image) {
+        return MemoryNeed{image.name == "att.A1" ? 100U : 70U, image.name == "att.A1" ? 1U : 64U};
+    };
+    const Plan made = plan(chain(2), lent);
+    EXPECT_EQ(resource(made, "att.A1")->heapOffset, 0U) << "the largest is placed first";
+    EXPECT_EQ(resource(made, "att.A0")->heapOffset, 128U) << "behind it, at its own alignment";
+    EXPECT_EQ(made.heapBytes, 198U);
+    EXPECT_EQ(made.naiveBytes, 170U);
+    lent.memory = {};
+    EXPECT_EQ(plan(chain(1), lent).heapBytes % 65536, 0U);
+}
+
+TEST(Plan, WhoIsReadByTheNextFrameIsNotCulled) {
+    // Nobody in this frame wants Accum: only the next one does, through its history.
+    std::string text = edited(moreGrammar(), R"("last":  { "access": "read", "as": "sampled", "bind": "u_last" },)", "");
+    text = edited(text, R"("last": "history.Accum", )", "");
+    text = edited(text, R"("passes": [)", R"("passes": [
+        { "name": "Show", "kind": "fullscreen", "shader": "show.frag",
+          "slots": { "last": { "access": "read", "as": "sampled", "bind": "u_last" },
+                     "color": { "access": "write", "as": "color" } },
+          "connect": { "last": "history.Accum", "color": "att.Shown" } },)");
+    text = edited(text, R"("attachments": {)", R"("attachments": { "Shown": { "format": "RGBA8Unorm", "size": { "frame": 1 } },)");
+    text = edited(text, R"("Color": { "from": "Blend.color" })", R"("Color": { "from": "Show.color" })");
+    const Plan made = plan(text, moreHost());
+    EXPECT_EQ(passNames(made), (Names{"Show", "Count", "Move", "Keep", "Draw", "Blend"})) << "and need not be first";
+    const PlanResource* last = resource(made, "history.Accum");
+    const PlanResource* accum = resource(made, "att.Accum");
+    ASSERT_TRUE(last && accum);
+    EXPECT_EQ(last->kind, PlanResource::Kind::History);
+    EXPECT_EQ(&made.resources[last->partner], accum);
+    EXPECT_EQ(&made.resources[accum->partner], last);
+    EXPECT_EQ(last->historyClear, (rhi::Color{0.25, 0, 0, 1}));
+    EXPECT_EQ(last->usage, accum->usage) << "they take turns";
+    EXPECT_EQ(slot(made, "Blend", "color")->store, rhi::StoreOp::Store);
+}
+
+TEST(Plan, BuffersHaveTheBytesOfTheirSetting) {
+    HostDescription lent = moreHost();
+    lent.settings["strands"] = whole(33);
+    const Plan made = plan(moreGrammar(), lent);
+    EXPECT_EQ(resource(made, "att.Points")->bytes, 33U * 16);
+    EXPECT_EQ(resource(made, "att.Args")->bytes, 16U) << "12, rounded up";
+    EXPECT_EQ(resource(made, "att.Heads")->bytes, 64U * 48 * 4);
+    EXPECT_EQ(resource(made, "history.Points")->bytes, 33U * 16);
+    using Usage = rhi::BufferUsage;
+    EXPECT_EQ(resource(made, "att.Args")->bufferUsage, Usage::Storage | Usage::CopyDst | Usage::Indirect);
+    EXPECT_EQ(resource(made, "att.Points")->bufferUsage,
+              Usage::Storage | Usage::CopyDst | Usage::CopySrc | Usage::Vertex);
+    EXPECT_EQ(slot(made, "Count", "args")->load, rhi::LoadOp::Clear);
+    EXPECT_EQ(slot(made, "Move", "points")->load, rhi::LoadOp::DontCare);
+    for (const PlanPass& pass : made.passes) {
+        if (pass.name == "Move") {
+            EXPECT_EQ(pass.slots[pass.indirect].name, "args");
+        }
+        if (pass.name == "Count") {
+            EXPECT_EQ(pass.indirect, ~0U);
+        }
+    }
+}
+
+TEST(Plan, ParametersOfAClassComeFromTheFileSettingsAndDefaults) {
+    const Plan made = plan(moreGrammar(), moreHost());
+    const auto found = std::find_if(made.passes.begin(), made.passes.end(),
+                                    [](const PlanPass& pass) { return pass.passClass == "Blend"; });
+    ASSERT_NE(found, made.passes.end());
+    EXPECT_EQ(found->kind, PassKind::Raster);
+    EXPECT_EQ(found->parameters,
+              (std::vector<PlanParameter>{{"weight", 0.25, ""}, {"style", 1, "hard"}, {"glow", 1, ""}, {"gain", 2, ""}}));
+}
+
+TEST(Plan, VersionsNameWhoMadeWhat) {
+    const Plan made = plan();
+    const PlanSlot* glass = slot(made, "Glass", "color");
+    EXPECT_EQ(glass->reads, 1U);
+    EXPECT_EQ(glass->makes, 2U);
+    EXPECT_EQ(made.passes[glass->producer].name, "Hair");
+    EXPECT_EQ(slot(made, "Hair", "color")->reads, ~0U) << "it begins";
+    EXPECT_EQ(slot(made, "Hair", "color")->makes, 1U);
+    EXPECT_EQ(resource(made, "att.Hair")->versions, 3U);
+    EXPECT_EQ(slot(made, "Resolve", "scene")->producer, ~0U) << "lent";
 }
 
 TEST(Plan, ReaderOfAnOldVersionRunsBeforeTheChange) {

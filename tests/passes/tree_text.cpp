@@ -109,6 +109,88 @@ std::string wholeGrammar() {
 )json";
 }
 
+std::string moreGrammar() {
+    return R"json({
+  "format": "pelage.passtree/1",
+  "name": "More",
+  "settings": {
+    "strands": { "type": "uint", "default": 100, "min": 1, "max": 1000000 },
+    "style":   { "type": "enum", "values": ["soft", "hard"], "default": "hard" },
+    "glow":    { "type": "bool", "default": true }
+  },
+  "imports": { "Shape": { "kind": "buffer", "access": "read" } },
+  "views": { "main": { "count": 1 } },
+  "drawLists": ["hair.forward"],
+  "attachments": {
+    "Points": { "kind": "buffer", "bytes": { "setting": "strands", "times": 16 }, "history": 1 },
+    "Args":   { "kind": "buffer", "bytes": 12 },
+    "Heads":  { "kind": "buffer", "bytes": { "perPixel": 4, "like": "att.Drawn" } },
+    "Copied": { "kind": "buffer", "bytes": { "setting": "strands", "times": 16 } },
+    "Accum":  { "format": "RGBA16Float", "size": { "frame": 1 }, "history": 1 },
+    "Drawn":  { "format": "RGBA16Float", "size": { "frame": 1 } }
+  },
+  "passes": [
+    {
+      "name": "Count", "kind": "compute", "shader": "count.comp",
+      "slots": {
+        "shape": { "access": "read", "as": "storage", "bind": "b_shape" },
+        "args":  { "access": "write", "as": "storage", "bind": "b_args", "clear": 0 }
+      },
+      "connect": { "shape": "host.Shape", "args": "att.Args" }
+    },
+    {
+      "name": "Move", "kind": "compute", "shader": "move.comp", "dispatchIndirect": "args",
+      "slots": {
+        "args":   { "access": "read", "as": "indirect" },
+        "before": { "access": "read", "as": "storage", "bind": "b_before" },
+        "points": { "access": "write", "as": "storage", "bind": "b_points" }
+      },
+      "connect": { "args": "Count.args", "before": "history.Points", "points": "att.Points" }
+    },
+    {
+      "name": "Draw", "kind": "raster", "view": "main", "drawList": "hair.forward",
+      "slots": {
+        "points": { "access": "read", "as": "vertex" },
+        "heads":  { "access": "readWrite", "as": "storage", "bind": "b_heads", "clear": 0 },
+        "color":  { "access": "write", "as": "color", "clear": [0, 0, 0, 0] }
+      },
+      "connect": { "points": "Move.points", "heads": "att.Heads", "color": "att.Drawn" }
+    },
+    {
+      "name": "Blend", "class": "Blend",
+      "slots": {
+        "drawn": { "access": "read", "as": "sampled", "bind": "u_drawn" },
+        "last":  { "access": "read", "as": "sampled", "bind": "u_last" },
+        "heads": { "access": "read", "as": "storage", "bind": "b_heads" },
+        "color": { "access": "write", "as": "color", "clear": [0.25, 0, 0, 1] }
+      },
+      "connect": { "drawn": "Draw.color", "last": "history.Accum", "heads": "Draw.heads", "color": "att.Accum" },
+      "parameters": { "weight": 0.25, "style": { "setting": "style" }, "glow": { "setting": "glow" } }
+    },
+    {
+      "name": "Keep", "kind": "copy",
+      "slots": { "from": { "access": "read", "as": "copy" }, "to": { "access": "write", "as": "copy" } },
+      "connect": { "from": "Move.points", "to": "att.Copied" }
+    }
+  ],
+  "exports": { "Color": { "from": "Blend.color" }, "Points": { "from": "Keep.to" } }
+}
+)json";
+}
+
+HostDescription moreHost() {
+    HostDescription made{.extent = {64, 48, 1}};
+    made.imports["Shape"] = {true};
+    using Type = ParameterInfo::Type;
+    made.classes.push_back({.name = "Blend",
+                            .kind = PassKind::Raster,
+                            .parameters = {{.name = "weight", .min = 0, .max = 1, .required = true},
+                                           {.name = "style", .type = Type::Word, .words = {"soft", "hard"}},
+                                           {.name = "glow", .type = Type::Bool},
+                                           {.name = "gain", .min = 1, .max = 4, .defaultNumber = 2}}});
+    return made;
+}
+
 std::string edited(std::string text, const std::string& from, const std::string& to) {
     const std::size_t at = text.find(from);
     if (at == std::string::npos) {

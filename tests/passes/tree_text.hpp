@@ -11,6 +11,10 @@ namespace pelage::passes::test {
 
 /// A tree with settings of each type, imports, a template, all kinds of passes and no fault.
 std::string wholeGrammar();
+/// Another, with what the first leaves out: buffers, histories, a class, counts from a buffer.
+std::string moreGrammar();
+/// A host that knows the class and lends what moreGrammar() needs.
+HostDescription moreHost();
 /// `text` with the first `from` replaced by `to`; fails the test when `from` is not there.
 std::string edited(std::string text, const std::string& from, const std::string& to);
 /// 1-based line and column of the first `needle`.

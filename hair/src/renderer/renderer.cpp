@@ -105,8 +105,7 @@ Outcome<void> Renderer::encode(Scene& scene, const FrameSettings& settings, rhi:
     }
     std::uint32_t shadowSize = 1, shadowLights = 0;
     if (auto built = state.buildGraph(scene, settings, shadowSize, shadowLights); !built) return built;
-    const FrameViews views =
-        makeViews(scene, settings.width, settings.height, shadowSize, shadowLights, settings.frameIndex);
+    const FrameViews views = makeViews(scene, settings, shadowSize, shadowLights);
     state.shadowsOff = views.shadows.empty();
     state.environmentOff = !scene.environment.enabled();
     if (auto prepared = state.prepareObjects(scene, views); !prepared) return prepared;
@@ -123,6 +122,8 @@ Outcome<void> Renderer::encode(Scene& scene, const FrameSettings& settings, rhi:
     passes::FrameImports imports;
     imports.textures["EnvIrradiance"] = *irradiance;
     imports.buffers["DisplayConstants"] = state.displayBlock;
+    imports.buffers["FrameConstants"] = state.views[0].block;
+    for (const auto& [name, texture] : settings.imports) imports.textures[name] = texture;
     auto recorded = state.graph.record(encoder, imports,
                                        [&](passes::RasterContext& context) { return state.draw(scene, context); });
     if (!recorded) return tl::unexpected(toDiagnostic(recorded.error()));

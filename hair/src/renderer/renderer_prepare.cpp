@@ -16,12 +16,20 @@ Outcome<void> Renderer::State::buildGraph(const Scene& scene, const FrameSetting
     wanted.settings = settings.settings;
     wanted.imports["EnvIrradiance"] = {true, rhi::TextureFormat::RGBA16Float, {16, 16, 6}, 1};
     wanted.imports["DisplayConstants"] = {true, rhi::TextureFormat::Undefined, {}, 1};
+    wanted.imports["FrameConstants"] = {true, rhi::TextureFormat::Undefined, {}, 1};
+    for (const auto& [name, texture] : settings.imports)
+        if (texture) wanted.imports[name] = {true, texture.format(), texture.size(), texture.sampleCount()};
     shadowSize = 1;
     shadowLights = 0;
     for (const passes::SettingInfo& info : tree->settings()) {
         const auto given = wanted.settings.find(info.name);
         const std::uint32_t number = given != wanted.settings.end() ? given->second.number : info.defaultValue.number;
         if (info.name == "shadowSize") shadowSize = number;
+        if (info.name == "hostDepth" && settings.view && given == wanted.settings.end()) {
+            const bool reversed = settings.view->depth == passes::DepthConvention::Reversed;
+            wanted.settings[info.name] = {passes::SettingValue::Type::Enum, reversed ? 0U : 1U,
+                                          reversed ? "reversed" : "conventional"};
+        }
         if (info.name == "shadowLights") {
             // As many layers as there are lights that cast shadows, unless the caller wants fewer.
             shadowLights = std::min(countShadowLights(scene), given != wanted.settings.end() ? number : info.max);
@@ -29,8 +37,8 @@ Outcome<void> Renderer::State::buildGraph(const Scene& scene, const FrameSetting
         }
     }
     const auto same = [&] {
-        if (!built || wanted.extent != host.extent || wanted.settings != host.settings) return false;
-        return true;
+        return built && wanted.extent == host.extent && wanted.settings == host.settings &&
+               wanted.imports == host.imports;
     };
     if (same()) return {};
     auto result = graph.build(*tree, wanted);

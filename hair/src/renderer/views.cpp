@@ -52,6 +52,25 @@ LightView lightView(const Light& light, const glm::vec3& center, float radius, f
     return view;
 }
 
+// A host's matrices in our conventions: reversed depth, clip-space +Y up.
+void setHostView(FrameBlock& block, const HostView& host) {
+    glm::mat4 projection = host.projection;
+    for (int column = 0; column < 4; ++column) {
+        if (host.clipYDown) projection[column][1] = -projection[column][1];
+        if (host.depth == passes::DepthConvention::Conventional)
+            projection[column][2] = projection[column][3] - projection[column][2];
+    }
+    block.viewProjection = projection * host.view;
+    const glm::mat4 fromView = glm::inverse(host.view);
+    block.eye = glm::vec4(glm::vec3(fromView[3]), 0.0F);
+    block.viewForward = glm::vec4(unit(-glm::vec3(fromView[2]), {0, 0, -1}), 0.0F);
+    // Height of a pixel: at one metre in perspective, everywhere in a parallel projection.
+    const float height = 2.0F / (std::max(std::abs(projection[1][1]), 1e-12F) * block.viewport.y);
+    const bool perspective = projection[2][3] != 0.0F;
+    block.pixel.x = perspective ? height : 0.0F;
+    block.pixel.y = perspective ? 0.0F : height;
+}
+
 }  // namespace
 
 glm::mat4 perspectiveReversed(float verticalFov, float aspect, float nearPlane, float farPlane) {
@@ -82,22 +101,29 @@ std::uint32_t countShadowLights(const Scene& scene) {
     return count;
 }
 
-FrameViews makeViews(const Scene& scene, std::uint32_t width, std::uint32_t height, std::uint32_t shadowSize,
-                     std::uint32_t shadowLights, std::uint32_t frameIndex) {
+FrameViews makeViews(const Scene& scene, const FrameSettings& settings, std::uint32_t shadowSize,
+                     std::uint32_t shadowLights) {
     FrameViews views;
     FrameBlock& main = views.main;
     const Camera& camera = scene.camera;
     const glm::vec3 forward = unit(camera.target - camera.eye, {0, 0, -1});
     glm::vec3 up = unit(camera.up, {0, 1, 0});
     if (std::abs(glm::dot(up, forward)) > 0.999F) up = anyUp(forward);
-    const float w = static_cast<float>(width), h = static_cast<float>(height);
-    main.viewProjection = perspectiveReversed(camera.verticalFov, w / h, camera.nearPlane, camera.farPlane) *
-                          glm::lookAt(camera.eye, camera.eye + forward, up);
+    const float w = static_cast<float>(settings.width), h = static_cast<float>(settings.height);
     const std::size_t count = std::min<std::size_t>(scene.lights.size(), maxLights);
-    main.eye = glm::vec4(camera.eye, static_cast<float>(count));
     main.viewport = {w, h, 1.0F / w, 1.0F / h};
-    main.pixel = {2.0F * std::tan(0.5F * camera.verticalFov) / h, 0.0F, static_cast<float>(frameIndex), scene.exposure};
-    main.viewForward = glm::vec4(forward, 0.0F);
+    main.pixel = {0.0F, 0.0F, static_cast<float>(settings.frameIndex), scene.exposure};
+    if (settings.view) {
+        setHostView(main, *settings.view);
+    } else {
+        main.viewProjection = perspectiveReversed(camera.verticalFov, w / h, camera.nearPlane, camera.farPlane) *
+                              glm::lookAt(camera.eye, camera.eye + forward, up);
+        main.eye = glm::vec4(camera.eye, 0.0F);
+        main.pixel.x = 2.0F * std::tan(0.5F * camera.verticalFov) / h;
+        main.viewForward = glm::vec4(forward, 0.0F);
+    }
+    main.eye.w = static_cast<float>(count);
+    main.inverseViewProjection = glm::inverse(main.viewProjection);
 
     glm::vec3 low, high;
     bounds(scene, true, low, high);
@@ -122,7 +148,7 @@ FrameViews makeViews(const Scene& scene, std::uint32_t width, std::uint32_t heig
         shadow.viewProjection = view.matrix;
         shadow.eye = glm::vec4(view.eye, 0.0F);
         shadow.viewport = {size, size, 1.0F / size, 1.0F / size};
-        shadow.pixel = {view.pixelScale, view.pixelConstant, static_cast<float>(frameIndex), 1.0F};
+        shadow.pixel = {view.pixelScale, view.pixelConstant, static_cast<float>(settings.frameIndex), 1.0F};
         shadow.viewForward = glm::vec4(view.forward, 1.0F);
         views.shadows.push_back(shadow);
     }

@@ -2,7 +2,7 @@
 // The uniform block of set 0 (hair/shaders/frame.glsl) for the camera and for each shadowed light. Reversed depth.
 #pragma once
 
-#include <pelage/hair/scene.hpp>
+#include <pelage/hair/renderer.hpp>
 
 #include <glm/glm.hpp>
 
@@ -16,11 +16,11 @@ struct LightBlock {
     glm::vec4 shadowDepth = {};
 };
 struct FrameBlock {
-    glm::mat4 viewProjection = glm::mat4(1.0F);
+    glm::mat4 viewProjection = glm::mat4(1.0F), inverseViewProjection = glm::mat4(1.0F);
     glm::vec4 eye = {}, viewport = {}, pixel = {}, viewForward = {}, ambient = {};
     LightBlock lights[maxLights] = {};
 };
-static_assert(sizeof(LightBlock) == 128 && sizeof(FrameBlock) == 144 + 128 * maxLights);
+static_assert(sizeof(LightBlock) == 128 && sizeof(FrameBlock) == 208 + 128 * maxLights);
 
 struct FrameViews {
     FrameBlock main = {};
@@ -28,8 +28,8 @@ struct FrameViews {
 };
 
 /// `shadowLights`: how many layers the shadow map has; the first that many lights that cast shadows get one.
-FrameViews makeViews(const Scene& scene, std::uint32_t width, std::uint32_t height, std::uint32_t shadowSize,
-                     std::uint32_t shadowLights, std::uint32_t frameIndex);
+FrameViews makeViews(const Scene& scene, const FrameSettings& settings, std::uint32_t shadowSize,
+                     std::uint32_t shadowLights);
 
 /// Lights of the scene that cast a shadow.
 std::uint32_t countShadowLights(const Scene& scene);

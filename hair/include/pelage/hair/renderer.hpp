@@ -10,6 +10,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -17,10 +18,22 @@
 
 namespace pelage::hair {
 
+/// A host's camera, instead of the scene's. Right-handed view space that looks along -z; clip depth 0..1.
+struct HostView {
+    glm::mat4 view = glm::mat4(1.0F), projection = glm::mat4(1.0F);
+    passes::DepthConvention depth = passes::DepthConvention::Reversed;
+    /// True: clip-space +Y is down, as in Vulkan with a viewport of positive height.
+    bool clipYDown = true;
+};
+
 struct FrameSettings {
     std::uint32_t width = 640, height = 640;
     std::map<std::string, passes::SettingValue> settings = {};  // of the pass tree, those that differ
     std::uint32_t frameIndex = 0;                               // seeds hashed alpha
+    std::optional<HostView> view = {};
+    /// What the host lends to the tree's imports of these names; hair_host takes "SceneColor" and "SceneDepth". They
+    /// may be other textures each frame; another size or format compiles the tree again.
+    std::map<std::string, rhi::Texture> imports = {};
 };
 
 struct AttachmentReport {
@@ -33,7 +46,8 @@ struct AttachmentReport {
 /// When pipelines are made. Synchronous: before the frame that needs them is recorded, so that every picture is whole.
 /// Background: on one thread of the renderer's own; until all pipelines of a changed material are there, the object is
 /// drawn in the same passes and with the same pipelines as before (its numbers are new at once), and at first not at
-/// all.
+/// all. A pipeline that cannot be made is an error of the frame, or, where something is shown already, a note of it;
+/// the device's error callback hears of it on the thread that tried.
 enum class PipelineMode : std::uint8_t { Synchronous, Background };
 
 struct FrameReport {

@@ -3,24 +3,12 @@
 // slots to shader resources by name, and calls the host for the draws of raster passes.
 #pragma once
 
-#include <pelage/passes/tree.hpp>
-#include <pelage/rhi/rhi.hpp>
+#include <pelage/passes/pass_class.hpp>
 
 #include <functional>
 #include <string>
 
 namespace pelage::passes {
-
-/// The shader module of a file named in a tree ("resolve.frag"), or an error.
-using ShaderSource = std::function<rhi::Result<rhi::ShaderModule>(const std::string& file)>;
-
-struct Targets {
-    std::vector<rhi::TextureFormat> colors = {};
-    rhi::TextureFormat depth = rhi::TextureFormat::Undefined;
-    std::uint32_t samples = 1;
-    bool depthReadOnly = false;
-    bool operator==(const Targets&) const = default;
-};
 
 /// What a pass draws into; a host can make its pipelines for it before the first frame.
 Targets targetsOf(const Plan& plan, const PlanPass& pass);
@@ -36,6 +24,8 @@ struct RasterContext {
     /// their names ("s_linear", "s_nearest", "s_shadow", "s_linearRepeat"). Cached. An error names what no slot
     /// provides.
     std::function<rhi::Result<rhi::BindGroup>(const rhi::BindGroupLayout&)> bindGroup;
+    /// The buffer of a slot (vertex, indirect, storage); empty when it is not connected or is no buffer.
+    std::function<rhi::Buffer(std::string_view slot)> buffer;
     std::uint32_t draws = 0;  // the host adds what it draws; for PassReport
 };
 using DrawCallback = std::function<rhi::Result<void>(RasterContext&)>;
@@ -58,20 +48,31 @@ public:
     struct Descriptor {
         rhi::Device device = {};
         ShaderSource shaders = {};
-        bool measure = true;  // timestamps and statistics per pass
+        bool measure = true;             // timestamps and statistics per pass
+        PassClassRegistry classes = {};  // that trees may name
     };
     Graph() = default;
     explicit Graph(Descriptor descriptor);
 
-    /// Compiles the tree for the host and makes what it needs. On an error the last good plan stays in force.
+    /// Compiles the tree for the host and makes what it needs. On an error the last good plan stays in force. When
+    /// nothing has changed since the last build that worked (the same tree, settings, imports, extent and depth
+    /// convention), the plan stays and the call costs less than 5 us: a host may call it each frame. The callbacks in
+    /// `host` are taken to answer as they did. What an attachment with a history remembers survives a new plan in which
+    /// it has the same shape.
     Checked<void> build(const PassTree& tree, const HostDescription& host);
     const Plan& plan() const;
     bool valid() const { return state_ != nullptr; }
+    /// How many plans were made by builds that worked.
+    std::uint64_t plansMade() const { return plansMade_; }
 
-    /// Records every pass of the plan. `draws` is called once per raster pass (and layer).
+    /// Records every pass of the plan. `draws` is called once per raster pass (and layer). An import that is not as the
+    /// plan expects (absent H001; format, size, layers or samples H002) is an error before anything is recorded: build
+    /// again with what is lent now.
     rhi::Result<void> record(rhi::CommandEncoder& encoder, const FrameImports& imports, const DrawCallback& draws);
-    /// The texture behind an export; valid after record().
+    /// The texture behind an export; valid after record(), with its contents until the next one. An export of a buffer
+    /// is in exportedBuffer().
     rhi::Texture exported(const std::string& name) const;
+    rhi::Buffer exportedBuffer(const std::string& name) const;
     /// Per pass, of the last recorded frame; call after its submission is done.
     std::vector<PassReport> reports() const;
     /// From the first begin to the last end timestamp of that frame.
@@ -82,6 +83,7 @@ public:
 private:
     std::shared_ptr<State> state_;
     Descriptor descriptor_;
+    std::uint64_t plansMade_ = 0;
 };
 
 }  // namespace pelage::passes

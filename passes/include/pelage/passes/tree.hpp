@@ -22,7 +22,7 @@ enum class DepthConvention : std::uint8_t { Reversed, Conventional };
 
 enum class PassKind : std::uint8_t { Raster, Fullscreen, Compute, Copy };
 enum class SlotAccess : std::uint8_t { Read, Write, ReadWrite };
-enum class SlotUse : std::uint8_t { Color, Depth, Sampled, Storage, Uniform, Copy };
+enum class SlotUse : std::uint8_t { Color, Depth, Sampled, Storage, Uniform, Copy, Vertex, Indirect };
 
 /// The value of a setting: bool, uint or a word of an enum.
 struct SettingValue {
@@ -46,6 +46,33 @@ struct ImportDescription {
     rhi::TextureFormat format = rhi::TextureFormat::Undefined;
     rhi::Extent3D extent = {};
     std::uint32_t samples = 1;
+    bool operator==(const ImportDescription&) const = default;
+};
+
+/// A parameter that a pass class takes from the file: `"parameters": {"radius": 2.5}`.
+struct ParameterInfo {
+    enum class Type : std::uint8_t { Number, Bool, Word };
+    std::string name = {}, description = {};
+    Type type = Type::Number;
+    double min = 0, max = 1;              // Number; inclusive
+    std::vector<std::string> words = {};  // Word: those it can be
+    bool required = false;                // otherwise the file may leave it out and the default counts
+    double defaultNumber = 0;             // Number; Bool: 0 or 1; Word: the index of the word
+};
+
+/// What the linker must know of a pass class that the host registered. See <pelage/passes/pass_class.hpp>.
+struct PassClassInfo {
+    std::string name = {};  // as a file says it: "class": "Outline"
+    /// What it records: one render pass into its color and depth slots, one compute pass, or copies.
+    PassKind kind = PassKind::Raster;  // Raster, Compute or Copy
+    std::vector<ParameterInfo> parameters = {};
+};
+
+struct PlanResource;
+
+/// Bytes that an image takes in a heap, and what its offset must be a multiple of.
+struct MemoryNeed {
+    std::uint64_t size = 0, alignment = 1;
 };
 
 struct HostDescription {
@@ -56,17 +83,32 @@ struct HostDescription {
     /// Whether the device can make such an image; decides between "format" and "formatFallbacks". Empty: it can.
     /// Graph::build fills it in.
     std::function<bool(rhi::TextureFormat, rhi::TextureUsage, std::uint32_t samples)> supports = {};
+    /// What a transient image takes in a heap. Empty: its texels' bytes, rounded up to 64 KiB. Graph::build fills it
+    /// in.
+    std::function<MemoryNeed(const PlanResource&)> memory = {};
+    /// Pass classes that a file may name. Graph::build fills it in from its registry.
+    std::vector<PassClassInfo> classes = {};
 };
 
 struct Plan;
 
+/// Gives the text of an included file, or nothing when there is none of that path.
+using TextReader = std::function<std::optional<std::string>(const std::string& path)>;
+
 class PassTree {
 public:
-    static Checked<std::shared_ptr<const PassTree>> parse(std::string_view text, const std::string& file);
+    /// Reads a tree from memory; `file` is its name in messages. What "include" names is looked up in the folder of the
+    /// file that says so: by `reader` when one is given, else only among the shipped texts.
+    static Checked<std::shared_ptr<const PassTree>> parse(std::string_view text, const std::string& file,
+                                                          const TextReader& reader = {});
+    /// Reads a file and what it includes: files beside it, else shipped texts of that name.
     static Checked<std::shared_ptr<const PassTree>> load(const std::string& path);
 
     const std::string& name() const;
     const std::string& file() const;
+    /// Every file that was read, the tree's own first; a host that reloads on a change watches these. Shipped texts are
+    /// no files and not listed.
+    const std::vector<std::string>& files() const;
     const std::vector<SettingInfo>& settings() const;
     std::vector<std::string> drawLists() const;
     std::vector<std::string> exports() const;
@@ -77,32 +119,45 @@ public:
 
     struct Description;  // src/description.hpp: what the file says, typed
     const Description& description() const { return *description_; }
+    const std::shared_ptr<const Description>& shared() const { return description_; }
 
 private:
     std::shared_ptr<const Description> description_;
 };
 
-/// An image or buffer that the plan creates (transient) or that the host lends.
+constexpr std::uint64_t notPlaced = ~0ULL;
+
+/// An image or buffer that the plan creates or that the host lends.
 struct PlanResource {
-    std::string name = {};  // "att.HairDepth", "host.SceneColor", "const.depthFarArray"
-    enum class Kind : std::uint8_t { Transient, Import, Constant } kind = Kind::Transient;
+    std::string name = {};  // "att.HairDepth", "history.Color", "host.SceneColor", "const.depthFarArray"
+    /// History: what `partner` was at the end of the last frame.
+    enum class Kind : std::uint8_t { Transient, History, Import, Constant } kind = Kind::Transient;
     rhi::TextureFormat format = rhi::TextureFormat::Undefined;
     rhi::Extent3D extent = {};
     std::uint32_t samples = 1, layers = 1;
     bool cube = false, isBuffer = false;
-    /// Transient images with the same number share one texture: their lifetimes do not overlap. ~0 for the others.
-    std::uint32_t allocation = ~0U;
-    rhi::TextureUsage usage = rhi::TextureUsage::None;  // gathered from the slots
-    std::uint64_t bytes = 0;
-    std::uint32_t firstPass = 0, lastPass = 0;  // indices into Plan::passes
+    rhi::TextureUsage usage = rhi::TextureUsage::None;      // gathered from the slots
+    rhi::BufferUsage bufferUsage = rhi::BufferUsage::None;  // the same, of a buffer
+    std::uint64_t bytes = 0;                                // of the texels, or of the buffer
+    std::uint32_t firstPass = 0, lastPass = 0;              // indices into Plan::passes, both included
+    std::uint32_t versions = 1;                             // states it goes through, the first being as it begins
+    /// Where a transient image lies in the heap. notPlaced: buffers, imports, constants, and images with a history,
+    /// whose contents outlive the frame. Two images may share bytes when their lives [firstPass, lastPass] do not meet;
+    /// an exported image lives to the last pass and stays until the next frame is recorded.
+    std::uint64_t heapOffset = notPlaced, heapBytes = 0;
+    /// Of a History: its attachment, ~0 when no pass of this plan writes it. Of that attachment: its History.
+    std::uint32_t partner = ~0U;
+    rhi::Color historyClear = {};  // what a History shows in the first frame; depth in `r`
 };
 
 struct PlanSlot {
     std::string name = {}, bind = {};
     SlotAccess access = SlotAccess::Read;
     SlotUse use = SlotUse::Color;
-    std::uint32_t resource = ~0U;  // ~0: optional and not connected
-    rhi::LoadOp load = rhi::LoadOp::Load;
+    std::uint32_t resource = ~0U;            // ~0: optional and not connected
+    std::uint32_t producer = ~0U;            // the pass whose result it takes, in Plan::passes; ~0: as lent or begun
+    std::uint32_t reads = ~0U, makes = ~0U;  // numbers of versions of the resource; ~0: does neither
+    rhi::LoadOp load = rhi::LoadOp::Load;    // of a buffer: Clear fills it with zeros
     rhi::StoreOp store = rhi::StoreOp::Store;
     rhi::Color clear = {};  // colour
     float clearDepth = 0;   // for the host's depth convention
@@ -110,14 +165,25 @@ struct PlanSlot {
     bool depthTestAlways = false;  // fullscreen passes that write depth
 };
 
+/// The value of a class's parameter, checked against its ParameterInfo.
+struct PlanParameter {
+    std::string name = {};
+    double number = 0;      // bool: 0 or 1; word: its index
+    std::string word = {};  // of a Word
+    bool operator==(const PlanParameter&) const = default;
+};
+
 struct PlanPass {
     std::string name = {}, drawList = {}, view = {}, shader = {};
+    std::string passClass = {};  // not empty: recorded by this class of the host
     PassKind kind = PassKind::Raster;
     bool forEachLayer = false;
     enum class Sort : std::uint8_t { None, FrontToBack, BackToFront } sort = Sort::None;
     std::vector<PlanSlot> slots = {};
     std::map<std::string, double> constants = {};  // specialization constants of a fullscreen or compute shader
+    std::vector<PlanParameter> parameters = {};    // of a class: all that it declares, in that order
     std::uint32_t dispatch[3] = {1, 1, 1};         // Compute: workgroups
+    std::uint32_t indirect = ~0U;                  // Compute: the slot whose buffer gives them instead; ~0: none
 };
 
 struct Plan {
@@ -126,9 +192,12 @@ struct Plan {
     std::map<std::string, std::uint32_t> exports = {};  // export name -> resource index
     std::vector<std::string> culled = {};  // "ToneMap: no export needs its result", "HairShadow: switched off …"
     std::map<std::string, std::uint32_t> viewCounts = {};
+    rhi::Extent3D extent = {};  // of the frame
     DepthConvention depth = DepthConvention::Reversed;
-    std::uint32_t allocations = 0;     // textures behind the transient images
-    std::uint64_t allocatedBytes = 0;  // of them; at most the sum over the transient resources
+    /// Memory of the transient images that are placed: one heap for all; what they would take each for itself; and the
+    /// most that is alive at once, below which no placing can go, with the pass where that is.
+    std::uint64_t heapBytes = 0, naiveBytes = 0, peakBytes = 0;
+    std::uint32_t peakPass = 0;
     Diagnostics warnings = {};
     /// Graphviz text of the compiled graph.
     std::string dot() const;

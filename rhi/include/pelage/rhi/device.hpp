@@ -45,6 +45,8 @@ struct DeviceDescriptor {
     Feature optionalFeatures = Feature::WideLines | Feature::PipelineStatistics | Feature::Timestamps;
     /// Errors that no error scope caught. Default: written to the instance's onMessage as an Error.
     std::function<void(const Error&)> onUncapturedError = {};
+    /// Called once, with the first error that says so; every call afterwards fails with DeviceLost and does nothing.
+    std::function<void(const Error&)> onDeviceLost = {};
 };
 
 /// A point on the queue's timeline; ordered.
@@ -84,6 +86,9 @@ public:
 
     Result<Buffer> createBuffer(const BufferDescriptor& descriptor) const;
     Result<Texture> createTexture(const TextureDescriptor& descriptor) const;
+    /// Memory for textures that are placed in it; what a texture would need there is memoryRequirements().
+    Result<TransientHeap> createTransientHeap(const TransientHeapDescriptor& descriptor) const;
+    Result<MemoryRequirements> memoryRequirements(const TextureDescriptor& descriptor) const;
     Result<Sampler> createSampler(const SamplerDescriptor& descriptor) const;
     Result<BindGroupLayout> createBindGroupLayout(const BindGroupLayoutDescriptor& descriptor) const;
     Result<BindGroup> createBindGroup(const BindGroupDescriptor& descriptor) const;

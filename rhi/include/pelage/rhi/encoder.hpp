@@ -64,6 +64,11 @@ public:
               std::uint32_t firstInstance = 0);
     void drawIndexed(std::uint32_t indexCount, std::uint32_t instanceCount = 1, std::uint32_t firstIndex = 0,
                      std::int32_t baseVertex = 0, std::uint32_t firstInstance = 0);
+    /// The arguments of draw() as four u32 at a multiple of 4 in a buffer with BufferUsage::Indirect. How far the
+    /// vertices reach is known only on the device and is not checked; firstInstance must be 0.
+    void drawIndirect(const Buffer& buffer, std::uint64_t offset = 0);
+    /// The arguments of drawIndexed() as five 32-bit words.
+    void drawIndexedIndirect(const Buffer& buffer, std::uint64_t offset = 0);
     void pushDebugGroup(std::string_view label);
     void popDebugGroup();
     void end();
@@ -82,6 +87,8 @@ public:
     void setBindGroup(std::uint32_t index, const BindGroup& group, std::span<const std::uint32_t> dynamicOffsets = {});
     void setPushConstants(std::uint32_t offset, std::span<const std::byte> bytes);
     void dispatchWorkgroups(std::uint32_t x, std::uint32_t y = 1, std::uint32_t z = 1);
+    /// The three counts as u32 at a multiple of 4 in a buffer with BufferUsage::Indirect.
+    void dispatchWorkgroupsIndirect(const Buffer& buffer, std::uint64_t offset = 0);
     void pushDebugGroup(std::string_view label);
     void popDebugGroup();
     void end();

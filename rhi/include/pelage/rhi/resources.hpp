@@ -32,6 +32,7 @@ struct RenderPipelineObject;
 struct ComputePipelineObject;
 struct QuerySetObject;
 struct CommandBufferObject;
+struct TransientHeapObject;
 }  // namespace detail
 
 /// Shared ownership of one object of the device. Compares by identity.
@@ -66,6 +67,22 @@ public:
     std::span<std::byte> mapped() const;
 };
 
+/// Memory that several textures share, each at its own place. See TextureDescriptor::heap.
+struct TransientHeapDescriptor {
+    std::string label = {};
+    std::uint64_t size = 0;  // bytes, > 0
+};
+class TransientHeap : public Handle<detail::TransientHeapObject> {
+public:
+    using Handle::Handle;
+    const std::string& label() const;
+    std::uint64_t size() const;
+};
+/// What Device::memoryRequirements gives: bytes, and what an offset in a heap must be a multiple of.
+struct MemoryRequirements {
+    std::uint64_t size = 0, alignment = 1;
+};
+
 struct TextureDescriptor {
     std::string label = {};
     Extent3D size = {};
@@ -74,6 +91,11 @@ struct TextureDescriptor {
     TextureFormat format = TextureFormat::RGBA8Unorm;
     TextureUsage usage = TextureUsage::None;
     bool cubeCompatible = false;  // 6 layers (or a multiple) that may be viewed as a cube
+    /// Places the texture in a heap; empty: memory of its own. Textures of one heap may overlap: the first use of one
+    /// in a submission's order takes the bytes over, waits for the uses of those it displaces (the library's barrier),
+    /// and finds undefined contents. A frame graph uses it for images whose lifetimes do not overlap.
+    TransientHeap heap = {};
+    std::uint64_t heapOffset = 0;
 };
 struct TextureViewDescriptor {
     std::string label = {};

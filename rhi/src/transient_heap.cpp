@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: MIT
+#include "transient_heap.hpp"
+
+#include "device_object.hpp"
+
+namespace pelage::rhi {
+namespace detail {
+
+TransientHeapObject::~TransientHeapObject() {
+    if (allocation.block == nullptr) return;
+    device->bury(lastUse, [memory = allocation](DeviceObject& d) { d.memory.release(memory); });
+}
+
+void HeapOwners::split(std::uint64_t at) {
+    const auto after = spans_.upper_bound(at);
+    const auto span = std::prev(after);
+    if (span->first == at || span->second.end <= at) return;
+    Span right = span->second;
+    span->second.end = at;
+    spans_.emplace_hint(after, at, std::move(right));
+}
+
+AccessState HeapOwners::take(std::uint64_t begin, std::uint64_t end, const std::shared_ptr<TextureState>& texture) {
+    split(begin);
+    split(end);
+    const auto add = [](AccessState& to, const AccessState& more) {
+        to.writeStages |= more.writeStages;
+        to.readStages |= more.readStages;
+        to.writeAccess |= more.writeAccess;
+    };
+    AccessState before;
+    std::vector<std::shared_ptr<TextureState>> displaced;
+    for (auto i = spans_.find(begin); i != spans_.end() && i->first < end; ++i) {
+        add(before, i->second.residue);
+        if (i->second.owner != nullptr && i->second.owner != texture) displaced.push_back(i->second.owner);
+    }
+    for (const auto& owner : displaced) {
+        const AccessState used = owner->history();
+        add(before, used);
+        // The bytes it keeps have no owner now, but whoever comes next must wait for it all the same.
+        for (auto& [start, span] : spans_)
+            if (span.owner == owner) {
+                add(span.residue, used);
+                span.owner = nullptr;
+            }
+        owner->current = false;
+    }
+    spans_.erase(spans_.find(begin), spans_.lower_bound(end));
+    spans_.emplace(begin, Span{end, texture, {}});
+    texture->current = true;
+    return before;
+}
+
+Result<void> checkPlace(const TextureObject& texture, const VkMemoryRequirements& needs) {
+    const auto& d = texture.descriptor;
+    if (!d.heap) return {};
+    const auto& heap = *d.heap.get();
+    if (auto ok = needSameDevice(heap, *texture.device); !ok) return ok;
+    if (d.heapOffset % needs.alignment != 0)
+        return invalid(ErrorCode::OutOfRange, cat(texture.describe(), " is placed at byte ", d.heapOffset, " of ",
+                                                  heap.describe(), "; a multiple of ", needs.alignment, " is needed."));
+    if (d.heapOffset > heap.size || needs.size > heap.size - d.heapOffset)
+        return invalid(ErrorCode::OutOfRange,
+                       cat(texture.describe(), " needs ", needs.size, " bytes at byte ", d.heapOffset, " of ",
+                           heap.describe(), ", which has ", heap.size, '.'));
+    if ((needs.memoryTypeBits & heap.memoryTypes) != heap.memoryTypes)
+        return fail(ErrorKind::Unsupported, ErrorCode::FormatUnsupported,
+                    cat(texture.describe(), " with the format ", name(d.format), " cannot lie in the memory of ",
+                        heap.describe(), " on this device."));
+    return {};
+}
+
+void takeOver(TextureObject& texture, const Access& access, BarrierBatch& batch) {
+    auto& heap = *texture.heap;
+    const auto before =
+        heap.owners.take(texture.descriptor.heapOffset, texture.descriptor.heapOffset + texture.bytes, texture.state);
+    const auto stages = before.writeStages | before.readStages;
+    texture.state->discard(stages);
+    // The image's own barrier covers that image only; writes through another one need a barrier on memory.
+    if (stages != 0) batch.memory(stages, before.writeAccess, access);
+}
+
+namespace {
+
+Result<TransientHeap> makeHeap(const std::shared_ptr<DeviceObject>& device, const TransientHeapDescriptor& descriptor) {
+    auto object = std::make_shared<TransientHeapObject>(device, descriptor);
+    if (descriptor.size == 0)
+        return invalid(ErrorCode::InvalidSize, cat(object->describe(), " has size 0; a heap holds at least 1 byte."));
+    // All colour formats allow the same memory types, and every depth format its own (Vulkan 1.3, "Resource Memory
+    // Association"); the types are checked again when a texture is placed.
+    VkMemoryRequirements needs = {descriptor.size, 65536, ~0U};
+    for (const auto format : {VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_D32_SFLOAT}) {
+        VkImageCreateInfo info = {VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
+        info.imageType = VK_IMAGE_TYPE_2D;
+        info.format = format;
+        info.extent = {4, 4, 1};
+        info.mipLevels = info.arrayLayers = 1;
+        info.samples = VK_SAMPLE_COUNT_1_BIT;
+        info.tiling = VK_IMAGE_TILING_OPTIMAL;
+        info.usage = VK_IMAGE_USAGE_SAMPLED_BIT;
+        VkDeviceImageMemoryRequirements query = {VK_STRUCTURE_TYPE_DEVICE_IMAGE_MEMORY_REQUIREMENTS};
+        query.pCreateInfo = &info;
+        VkMemoryRequirements2 one = {VK_STRUCTURE_TYPE_MEMORY_REQUIREMENTS_2};
+        device->functions.vkGetDeviceImageMemoryRequirements(device->handle, &query, &one);
+        const auto both = needs.memoryTypeBits & one.memoryRequirements.memoryTypeBits;
+        if (both != 0) needs.memoryTypeBits = both;
+    }
+    auto memory = device->memory.allocate(needs, MemoryUse::Device, true, object->describe());
+    if (!memory) return forward(memory.error());
+    object->allocation = *memory;
+    object->memoryTypes = 1U << device->memory.typeOf(*memory);
+    return TransientHeap(std::move(object));
+}
+
+}  // namespace
+}  // namespace detail
+
+Result<TransientHeap> Device::createTransientHeap(const TransientHeapDescriptor& descriptor) const {
+    if (auto ok = detail::needHandle(*this, "the device"); !ok) return detail::forward(ok.error());
+    return object_->reported(detail::makeHeap(object_, descriptor));
+}
+
+const std::string& TransientHeap::label() const {
+    return object_->label;
+}
+std::uint64_t TransientHeap::size() const {
+    return object_->size;
+}
+
+}  // namespace pelage::rhi

@@ -1,0 +1,20 @@
+# cmake -DBUILD=dir -DPREFIX=dir -DSOURCE=dir -P install.cmake
+# Installs, looks for paths of this machine in what others read, and moves the tree to where the consumers find it.
+file(REMOVE_RECURSE ${PREFIX} ${PREFIX}.first)
+execute_process(COMMAND ${CMAKE_COMMAND} --install ${BUILD} --prefix ${PREFIX}.first
+  OUTPUT_QUIET COMMAND_ERROR_IS_FATAL ANY)
+file(GLOB_RECURSE texts ${PREFIX}.first/*.cmake ${PREFIX}.first/*.pc ${PREFIX}.first/*.hpp ${PREFIX}.first/*.json)
+list(LENGTH texts count)
+if(count LESS 50)
+  message(FATAL_ERROR "only ${count} files were installed")
+endif()
+foreach(text IN LISTS texts)
+  file(READ ${text} content)
+  foreach(path ${SOURCE} ${BUILD})
+    string(FIND "${content}" "${path}" found)
+    if(NOT found EQUAL -1)
+      message(SEND_ERROR "${text} names ${path}")
+    endif()
+  endforeach()
+endforeach()
+file(RENAME ${PREFIX}.first ${PREFIX})

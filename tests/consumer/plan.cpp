@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: MIT
+// A host of pelage::rhi and pelage::passes that knows nothing of hair: compiles the shipped frame into a plan, opens a
+// device and has it read a shader that is none.
+#include <pelage/passes/tree.hpp>
+#include <pelage/rhi/rhi.hpp>
+
+#include <cstdio>
+#include <string>
+
+using namespace pelage;
+
+namespace {
+
+int failed(const std::string& why) {
+    std::fprintf(stderr, "consumer: %s\n", why.c_str());
+    return 1;
+}
+
+}  // namespace
+
+int main() {
+    const auto tree = passes::PassTree::parse(passes::shippedText("hair_frame.pass.json"), "hair_frame.pass.json");
+    if (!tree) return failed(tree.error().text());
+    passes::HostDescription host{.extent = {320, 200, 1}};
+    host.imports["DisplayConstants"] = {.present = true};
+    const auto plan = (*tree)->compile(host);
+    if (!plan) return failed(plan.error().text());
+    for (const passes::PlanPass& pass : plan->passes) std::printf("%s\n", pass.name.c_str());
+    if (plan->passes.empty()) return failed("the shipped frame has no passes");
+
+    const auto instance = rhi::Instance::create({.label = "consumer"});
+    if (!instance) return failed(rhi::toString(instance.error()));
+    const auto adapter = instance->requestAdapter();
+    if (!adapter) return failed(rhi::toString(adapter.error()));
+    const auto device = adapter->requestDevice();
+    if (!device) return failed(rhi::toString(device.error()));
+    const auto shader = device->createShaderModule({.label = "no shader", .code = {1, 2, 3}});
+    if (shader) return failed("three numbers were taken for a shader");
+    std::printf("%s\n", rhi::toString(shader.error()).c_str());
+    return 0;
+}

@@ -1,0 +1,16 @@
+# cmake -DNM=program -DPLUGIN=file -P exports.cmake
+execute_process(COMMAND ${NM} -D --defined-only ${PLUGIN} OUTPUT_VARIABLE symbols COMMAND_ERROR_IS_FATAL ANY)
+execute_process(COMMAND ${NM} ${PLUGIN} OUTPUT_VARIABLE inside COMMAND_ERROR_IS_FATAL ANY)
+if(NOT symbols MATCHES " hostPluginEntry\n")
+  message(FATAL_ERROR "the plugin does not export its own entry: this looks at the wrong thing")
+endif()
+# Names of ours begin with 6pelage once mangled; those of the code we carry along have these words.
+set(ours "6pelage|stbi|tinygltf|spirv_cross")
+if(NOT inside MATCHES "6pelage4hair8Renderer6create")
+  message(FATAL_ERROR "the renderer is not in the plugin: this looks at the wrong thing")
+endif()
+string(REGEX MATCHALL "[^ \n]*(${ours})[^\n]*" given "${symbols}")
+if(given)
+  list(JOIN given "\n  " given)
+  message(FATAL_ERROR "exported:\n  ${given}")
+endif()
