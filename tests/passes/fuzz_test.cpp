@@ -83,6 +83,7 @@ TEST(Fuzz, EveryValueDeletedOrReplaced) {
     frame.imports["DisplayConstants"] = {true};
     eachEdit(std::string(shippedText("hair_frame.pass.json")), frame, tally);
     eachEdit(wholeGrammar(), host(), tally);
+    eachEdit(moreGrammar(), moreHost(), tally);
     RecordProperty("edits", static_cast<int>(tally.edits));
     RecordProperty("unnoticed", static_cast<int>(tally.unnoticed));
     std::cout << tally.edits << " edits, " << tally.unnoticed << " still a plan\n";

@@ -156,12 +156,24 @@ TEST(ShippedFrame, PlanDoesNotDependOnTheOrderInTheFile) {
     }
 }
 
+TEST(ShippedFrame, NothingLiesCloserThanItsLivesAllow) {
+    // Depth and ColorMS are alive at once and are four fifths of the whole: the heap is the peak, not less.
+    const Outcome made = run(shipped());
+    EXPECT_EQ(made.plan.heapBytes, made.plan.peakBytes);
+    EXPECT_LT(made.plan.heapBytes, made.plan.naiveBytes);
+}
+
 TEST(ShippedFrame, NamesForTheHost) {
     const auto tree = PassTree::parse(shipped(), "hair_frame.pass.json");
     ASSERT_TRUE(tree) << tree.error().text();
     EXPECT_EQ((*tree)->name(), "HairFrame");
     EXPECT_EQ((*tree)->drawLists(), (Names{"shadow", "depth", "forward", "blend"}));
     EXPECT_EQ((*tree)->exports(), (Names{"HdrColor", "LdrColor", "Depth"}));
+    EXPECT_TRUE((*tree)->passClasses().empty());
+    ASSERT_EQ((*tree)->imports().size(), 2U);
+    EXPECT_EQ((*tree)->imports()[0].name, "EnvIrradiance");
+    EXPECT_TRUE((*tree)->imports()[0].cube && (*tree)->imports()[0].optional);
+    EXPECT_TRUE((*tree)->imports()[1].buffer && !(*tree)->imports()[1].optional);
     ASSERT_EQ((*tree)->settings().size(), 4U);
     EXPECT_EQ((*tree)->settings()[0].name, "shadowSize");
     EXPECT_EQ((*tree)->settings()[0].defaultValue.number, 1024U);

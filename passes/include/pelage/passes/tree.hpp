@@ -49,6 +49,13 @@ struct ImportDescription {
     bool operator==(const ImportDescription&) const = default;
 };
 
+/// What a tree asks a host to lend.
+struct ImportInfo {
+    std::string name = {};
+    bool buffer = false, cube = false, optional = false;
+    std::vector<rhi::TextureFormat> formats = {};  // that the tree accepts; empty: any
+};
+
 /// A parameter that a pass class takes from the file: `"parameters": {"radius": 2.5}`.
 struct ParameterInfo {
     enum class Type : std::uint8_t { Number, Bool, Word };
@@ -83,6 +90,10 @@ struct HostDescription {
     /// Whether the device can make such an image; decides between "format" and "formatFallbacks". Empty: it can.
     /// Graph::build fills it in.
     std::function<bool(rhi::TextureFormat, rhi::TextureUsage, std::uint32_t samples)> supports = {};
+    /// What the device allows of an image's sides and layers, and of the bytes of a buffer or of the heap; more is
+    /// D002. Graph::build lowers the first two to what its device allows.
+    std::uint32_t maxSide = 32768, maxLayers = 256;
+    std::uint64_t maxBytes = 1ULL << 40;
     /// What a transient image takes in a heap. Empty: its texels' bytes, rounded up to 64 KiB. Graph::build fills it
     /// in.
     std::function<MemoryNeed(const PlanResource&)> memory = {};
@@ -112,6 +123,8 @@ public:
     const std::vector<SettingInfo>& settings() const;
     std::vector<std::string> drawLists() const;
     std::vector<std::string> exports() const;
+    std::vector<ImportInfo> imports() const;
+    std::vector<std::string> passClasses() const;  // those that its passes name
     const Diagnostics& warnings() const;
 
     /// Links and schedules. All faults at once; warnings come with the plan.
