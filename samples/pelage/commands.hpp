@@ -68,5 +68,6 @@ int accuracy(const AccuracyOptions& options);
 
 int info(const std::vector<std::string>& files);
 int check(const std::vector<std::string>& files);
+int migrate(const std::vector<std::string>& files);
 
 }  // namespace pelage::app

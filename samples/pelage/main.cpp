@@ -149,6 +149,8 @@ int run(int argc, char** argv) {
     addAccuracy(app, accuracyOptions, result);
     addFiles(app, "info", "Say what is in hair files", files, result, info);
     addFiles(app, "check", "Find faults in pass trees, material types, materials and scenes", files, result, check);
+    addFiles(app, "migrate", "Rewrite material files for the present version of their type; comments are not kept",
+             files, result, migrate);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help) {

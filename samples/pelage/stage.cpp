@@ -148,9 +148,9 @@ Outcome<Stage> makeStage(const StageOptions& options, hair::Library& library) {
     if (auto done = applyView(options, stage.file); !done) return tl::unexpected(done.error());
 
     stage.watched.push_back(stage.tree->file());
-    if (options.material.ends_with(".json")) stage.watched.push_back(options.material);
     for (const hair::Object& object : stage.file.scene.objects) {
         stage.watched.push_back(object.material.type().file());
+        for (const std::string& read : object.material.files()) stage.watched.push_back(read);
     }
     return stage;
 }
