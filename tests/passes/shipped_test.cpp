@@ -163,6 +163,27 @@ TEST(ShippedFrame, NothingLiesCloserThanItsLivesAllow) {
     EXPECT_LT(made.plan.heapBytes, made.plan.naiveBytes);
 }
 
+TEST(ShippedFrame, AnExportNobodyWantsCostsNothing) {
+    HostDescription host = frame();
+    const Plan all = run(shipped(), host).plan;
+    host.unwantedExports = {"Depth"};
+    const Outcome less = run(shipped(), host);
+    EXPECT_EQ(less.codes, "");
+    EXPECT_EQ(passNames(less.plan), passNames(all)) << "other passes test against the depth";
+    EXPECT_EQ(less.plan.exports.count("Depth"), 0U);
+    EXPECT_EQ(resource(less.plan, "att.Depth")->lastPass, 3U);
+    host.extent = {1920, 1080, 1};
+    const Plan large = run(shipped(), host).plan;
+    host.unwantedExports.clear();
+    EXPECT_LT(large.heapBytes, run(shipped(), host).plan.heapBytes);
+    host.unwantedExports = {"LdrColor"};
+    const Outcome linear = run(shipped(), host);
+    EXPECT_EQ(linear.codes, "") << linear.text;
+    EXPECT_EQ(linear.plan.culled, Names{"Display: no export needs its result"});
+    host.unwantedExports = {"Dept"};
+    EXPECT_EQ(run(shipped(), host).codes, "H005");
+}
+
 TEST(ShippedFrame, NamesForTheHost) {
     const auto tree = PassTree::parse(shipped(), "hair_frame.pass.json");
     ASSERT_TRUE(tree) << tree.error().text();

@@ -87,6 +87,9 @@ struct HostDescription {
     DepthConvention depth = DepthConvention::Reversed;
     std::map<std::string, SettingValue> settings = {};      // those that differ from the defaults
     std::map<std::string, ImportDescription> imports = {};  // by name
+    /// Exports that this host never looks at: as if the file did not have them, so that what only they need is culled
+    /// (without a warning) and their images give their memory back early. A name the tree lacks is a warning (H005).
+    std::vector<std::string> unwantedExports = {};
     /// Whether the device can make such an image; decides between "format" and "formatFallbacks". Empty: it can.
     /// Graph::build fills it in.
     std::function<bool(rhi::TextureFormat, rhi::TextureUsage, std::uint32_t samples)> supports = {};
