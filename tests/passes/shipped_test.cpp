@@ -184,6 +184,25 @@ TEST(ShippedFrame, AnExportNobodyWantsCostsNothing) {
     EXPECT_EQ(run(shipped(), host).codes, "H005");
 }
 
+// Editors show these sentences, and the documentation of the grammar is made of them.
+TEST(Schema, EveryMemberHasADescription) {
+    std::size_t members = 0;
+    const std::function<void(const json::Value&, const std::string&)> walk = [&](const json::Value& value,
+                                                                                 const std::string& path) {
+        if (const json::Value* properties = value.find("properties"); properties && properties->isObject()) {
+            for (const json::Member& member : properties->members) {
+                const json::Value* text = member.value.find("description");
+                EXPECT_TRUE(text && text->string.size() > 3) << path << "/" << member.key;
+                ++members;
+            }
+        }
+        for (const json::Member& member : value.members) walk(member.value, path + "/" + member.key);
+        for (const json::Value& element : value.elements) walk(element, path);
+    };
+    walk(readJson(std::string(shippedText("passtree.schema.json"))), "");
+    EXPECT_GT(members, 80U);
+}
+
 TEST(ShippedFrame, NamesForTheHost) {
     const auto tree = PassTree::parse(shipped(), "hair_frame.pass.json");
     ASSERT_TRUE(tree) << tree.error().text();
