@@ -65,6 +65,7 @@ struct QueueState {
     VkQueue handle = VK_NULL_HANDLE;
     VkSemaphore timeline = VK_NULL_HANDLE;
     std::uint64_t submitted = 0;  // the last value given out, to a submission or a host's ticket
+    BarrierLog barriers;
     std::uint64_t signalled = 0;  // the last value that a submission of our own will signal
     vulkan::QueueLock hostLock;   // held around every call on the queue, inside `mutex`
     std::vector<CommandSlot> running, idle;

@@ -5,7 +5,7 @@
 
 #include <unordered_set>
 
-#include "objects.hpp"
+#include "device_object.hpp"
 
 namespace pelage::rhi::detail {
 
@@ -178,7 +178,8 @@ struct CommandBufferObject final : Object {
 /// Replays into a Vulkan command buffer with the barriers each scope needs. The queue's mutex is held.
 class Replay {
 public:
-    Replay(DeviceObject& device, VkCommandBuffer commands) : device_(device), commands_(commands) {}
+    Replay(DeviceObject& device, VkCommandBuffer commands)
+        : device_(device), commands_(commands), batch_(&device.queue.barriers) {}
     void run(const Recording& recording, CommandBuffer::Counters* counters);
     /// After everything: makes what was written visible to the host, and one texture ready to present.
     void finish(TextureObject* present);

@@ -7,10 +7,12 @@
 namespace pelage::rhi::detail {
 
 void Replay::flushBarriers() {
-    if (batch_.empty()) return;
-    batch_.record(commands_, device_.functions.vkCmdPipelineBarrier2);
+    if (!batch_.empty()) {
+        batch_.record(commands_, device_.functions.vkCmdPipelineBarrier2);
+        if (batch_.hasMemory()) device_.queue.barriers.note(batch_.memory());
+        ++counters_.barriers;
+    }
     batch_.clear();
-    ++counters_.barriers;
 }
 
 void Replay::beginLabel(const std::string& label) {
