@@ -102,6 +102,9 @@ struct HostDescription {
     std::function<MemoryNeed(const PlanResource&)> memory = {};
     /// Pass classes that a file may name. Graph::build fills it in from its registry.
     std::vector<PassClassInfo> classes = {};
+    /// For tools that look at trees of hosts they do not know: a class that is not in `classes` is taken to be one
+    /// whose kind its slots tell, and its parameters are not looked at.
+    bool trustClasses = false;
 };
 
 struct Plan;
