@@ -67,7 +67,8 @@ rhi::Result<void> makeResources(Graph::State& state) {
 // What the host says in words and numbers; its callbacks cannot be compared.
 bool same(const HostDescription& a, const HostDescription& b) {
     return a.extent == b.extent && a.depth == b.depth && a.settings == b.settings && a.imports == b.imports &&
-           a.maxSide == b.maxSide && a.maxLayers == b.maxLayers && a.maxBytes == b.maxBytes;
+           a.unwantedExports == b.unwantedExports && a.maxSide == b.maxSide && a.maxLayers == b.maxLayers &&
+           a.maxBytes == b.maxBytes;
 }
 
 }  // namespace

@@ -273,7 +273,7 @@ private:
             if (!first) first = &slot;
         }
         // What a class copies is its own affair.
-        if (copies[0] && copies[1] && !pass.info) copyFits(pass, *copies[0], *copies[1]);
+        if (copies[0] && copies[1] && pass.says->passClass.empty()) copyFits(pass, *copies[0], *copies[1]);
         conflicts(pass);
     }
 

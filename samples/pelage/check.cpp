@@ -6,7 +6,6 @@
 #include <pelage/hair/functors.hpp>
 #include <pelage/hair/library.hpp>
 #include <pelage/hair/scene_file.hpp>
-#include <pelage/json/value.hpp>
 
 #include <cstdio>
 #include <filesystem>
@@ -17,20 +16,15 @@ namespace pelage::app {
 
 namespace {
 
-/// A host that lends all the tree asks for, so that what is left for run time is the host.
-passes::HostDescription generousHost(const std::string& path) {
+/// A host that lends all the tree asks for and knows its classes, so that what is left for run time is the host.
+passes::HostDescription generousHost(const passes::PassTree& tree) {
     passes::HostDescription host{.extent = {640, 640, 1}};
-    const auto document = json::parseFile(path);
-    const json::Value* imports = document ? document->root.find("imports") : nullptr;
-    if (!imports) return host;
-    for (const json::Member& import : imports->members) {
+    host.trustClasses = true;
+    for (const passes::ImportInfo& import : tree.imports()) {
         passes::ImportDescription lent{
             .present = true, .format = rhi::TextureFormat::RGBA16Float, .extent = host.extent};
-        const json::Value* formats = import.value.find("formats");
-        if (formats && !formats->elements.empty()) {
-            lent.format = rhi::textureFormatFromName(formats->elements.front().string);
-        }
-        host.imports[import.key] = lent;
+        if (!import.formats.empty()) lent.format = import.formats.front();
+        host.imports[import.name] = lent;
     }
     return host;
 }
@@ -39,7 +33,7 @@ Diagnostics checkPassTree(const std::string& path) {
     const auto tree = passes::PassTree::load(path);
     if (!tree) return tree.error();
     Diagnostics found = (*tree)->warnings();
-    const auto plan = (*tree)->compile(generousHost(path));
+    const auto plan = (*tree)->compile(generousHost(**tree));
     found.append(plan ? plan->warnings : plan.error());
     return found;
 }

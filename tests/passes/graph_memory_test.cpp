@@ -208,20 +208,21 @@ TEST_F(GraphMemoryTest, BuffersAreClearedCountedCopiedAndRemembered) {
     EXPECT_EQ(read<std::uint32_t>(made.exportedBuffer("Values"), count), expected);
 }
 
-TEST_F(GraphMemoryTest, RasterPassesDrawFromATransientBuffer) {
+TEST_F(GraphMemoryTest, RasterPassesDrawFromTransientBuffersAsManyAsTheySay) {
     Graph made = graph();
     mustBuild(made, R"json({
   "format": "pelage.passtree/1", "name": "Vertices", "views": { "main": { "count": 1 } }, "drawLists": ["all"],
-  "attachments": { "Corners": { "kind": "buffer", "bytes": 48 },
+  "attachments": { "Corners": { "kind": "buffer", "bytes": 48 }, "Count": { "kind": "buffer", "bytes": 16 },
                    "Out": { "format": "RGBA8Unorm", "size": { "frame": 1 } } },
   "passes": [
     { "name": "Make", "kind": "compute", "shader": "corners.comp",
-      "slots": { "corners": { "access": "write", "as": "storage", "bind": "b_corners" } },
-      "connect": { "corners": "att.Corners" } },
+      "slots": { "corners": { "access": "write", "as": "storage", "bind": "b_corners" },
+                 "count": { "access": "write", "as": "storage", "bind": "b_arguments" } },
+      "connect": { "corners": "att.Corners", "count": "att.Count" } },
     { "name": "Draw", "kind": "raster", "view": "main", "drawList": "all",
-      "slots": { "corners": { "access": "read", "as": "vertex" },
+      "slots": { "corners": { "access": "read", "as": "vertex" }, "count": { "access": "read", "as": "indirect" },
                  "color": { "access": "write", "as": "color", "clear": [0, 0, 0, 0] } },
-      "connect": { "corners": "Make.corners", "color": "att.Out" } }
+      "connect": { "corners": "Make.corners", "count": "Make.count", "color": "att.Out" } }
   ],
   "exports": { "Out": { "from": "Draw.color" } } })json",
               {.extent = {8, 8, 1}});
@@ -235,7 +236,7 @@ TEST_F(GraphMemoryTest, RasterPassesDrawFromATransientBuffer) {
         context.encoder.setPipeline(value(gpu.device.createRenderPipeline(descriptor)));
         EXPECT_FALSE(context.buffer("color"));
         context.encoder.setVertexBuffer(0, context.buffer("corners"));
-        context.encoder.draw(3);
+        context.encoder.drawIndirect(context.buffer("count"));
         return {};
     }));
     run(encoder);

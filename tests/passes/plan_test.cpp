@@ -261,6 +261,21 @@ TEST(Plan, ParametersOfAClassComeFromTheFileSettingsAndDefaults) {
                                      {"weight", 0.25, ""}, {"style", 1, "hard"}, {"glow", 1, ""}, {"gain", 2, ""}}));
 }
 
+TEST(Plan, AToolMayTrustClassesItDoesNotKnow) {
+    HostDescription lent = moreHost();
+    lent.classes.clear();
+    const auto tree = PassTree::parse(moreGrammar(), "tree.pass.json");
+    ASSERT_TRUE(tree) << tree.error().text();
+    EXPECT_EQ((*tree)->passClasses(), Names{"Blend"});
+    EXPECT_EQ(codes((*tree)->compile(lent).error()), "P053");
+    lent.trustClasses = true;
+    const Plan made = plan(moreGrammar(), lent);
+    const auto found = std::find_if(made.passes.begin(), made.passes.end(),
+                                    [](const PlanPass& pass) { return pass.passClass == "Blend"; });
+    ASSERT_NE(found, made.passes.end());
+    EXPECT_EQ(found->kind, PassKind::Raster) << "it has a color slot";
+}
+
 TEST(Plan, VersionsNameWhoMadeWhat) {
     const Plan made = plan();
     const PlanSlot* glass = slot(made, "Glass", "color");

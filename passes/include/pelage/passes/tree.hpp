@@ -87,6 +87,9 @@ struct HostDescription {
     DepthConvention depth = DepthConvention::Reversed;
     std::map<std::string, SettingValue> settings = {};      // those that differ from the defaults
     std::map<std::string, ImportDescription> imports = {};  // by name
+    /// Exports that this host never looks at: as if the file did not have them, so that what only they need is culled
+    /// (without a warning) and their images give their memory back early. A name the tree lacks is a warning (H005).
+    std::vector<std::string> unwantedExports = {};
     /// Whether the device can make such an image; decides between "format" and "formatFallbacks". Empty: it can.
     /// Graph::build fills it in.
     std::function<bool(rhi::TextureFormat, rhi::TextureUsage, std::uint32_t samples)> supports = {};
@@ -99,6 +102,9 @@ struct HostDescription {
     std::function<MemoryNeed(const PlanResource&)> memory = {};
     /// Pass classes that a file may name. Graph::build fills it in from its registry.
     std::vector<PassClassInfo> classes = {};
+    /// For tools that look at trees of hosts they do not know: a class that is not in `classes` is taken to be one
+    /// whose kind its slots tell, and its parameters are not looked at.
+    bool trustClasses = false;
 };
 
 struct Plan;
