@@ -54,6 +54,17 @@ const std::vector<std::string>& PassTree::files() const {
 const std::vector<SettingInfo>& PassTree::settings() const {
     return description_->settingInfos;
 }
+std::vector<ImportInfo> PassTree::imports() const {
+    std::vector<ImportInfo> infos;
+    for (const ImportDeclaration& import : description_->imports) {
+        infos.push_back({.name = import.name,
+                         .isBuffer = import.kind == ImportDeclaration::Kind::Buffer,
+                         .optional = import.optional,
+                         .formats = import.formats,
+                         .samples = import.samples});
+    }
+    return infos;
+}
 std::vector<std::string> PassTree::drawLists() const {
     return namesOf(description_->drawLists);
 }

@@ -2,11 +2,11 @@
 // Reads authored files and prints everything found wrong, one line each, in the form editors understand.
 #include "commands.hpp"
 #include "data.hpp"
+#include "generous_host.hpp"
 
 #include <pelage/hair/functors.hpp>
 #include <pelage/hair/library.hpp>
 #include <pelage/hair/scene_file.hpp>
-#include <pelage/json/value.hpp>
 
 #include <cstdio>
 #include <filesystem>
@@ -20,29 +20,11 @@ Diagnostics faultsOf(const Checked<T>& read, const Diagnostics& warnings) {
     return read ? warnings : read.error();
 }
 
-/// A host that lends all the tree asks for, so that what is left for run time is the host.
-passes::HostDescription generousHost(const std::string& path) {
-    passes::HostDescription host{.extent = {640, 640, 1}};
-    const auto document = json::parseFile(path);
-    const json::Value* imports = document ? document->root.find("imports") : nullptr;
-    if (!imports) return host;
-    for (const json::Member& import : imports->members) {
-        passes::ImportDescription lent{
-            .present = true, .format = rhi::TextureFormat::RGBA16Float, .extent = host.extent};
-        const json::Value* formats = import.value.find("formats");
-        if (formats && !formats->elements.empty()) {
-            lent.format = rhi::textureFormatFromName(formats->elements.front().string);
-        }
-        host.imports[import.key] = lent;
-    }
-    return host;
-}
-
 Diagnostics checkPassTree(const std::string& path) {
     const auto tree = passes::PassTree::load(path);
     if (!tree) return tree.error();
     Diagnostics found = (*tree)->warnings();
-    const auto plan = (*tree)->compile(generousHost(path));
+    const auto plan = (*tree)->compile(generousHost(**tree, {640, 640, 1}));
     found.append(plan ? plan->warnings : plan.error());
     return found;
 }
@@ -77,15 +59,19 @@ Diagnostics checkFile(const std::string& path, hair::Library& library) {
 
 }  // namespace
 
-int check(const std::vector<std::string>& files) {
+int check(const CheckOptions& options) {
     hair::Library library(dataDirectory());
     int result = exitOk;
-    for (const std::string& file : files) {
+    for (const std::string& file : options.files) {
         const Diagnostics found = checkFile(file, library);
-        std::fputs(found.text().c_str(), stderr);
+        if (options.json) {
+            std::fputs(found.jsonLines().c_str(), stdout);
+        } else {
+            std::fputs(found.text().c_str(), stderr);
+        }
         if (found.hasErrors()) {
             result = exitFailed;
-        } else {
+        } else if (!options.json) {
             std::printf("%s: %s\n", file.c_str(), found.empty() ? "clean" : "usable, with warnings");
         }
     }

@@ -49,6 +49,14 @@ struct ImportDescription {
     bool operator==(const ImportDescription&) const = default;
 };
 
+/// What a tree asks the host to lend.
+struct ImportInfo {
+    std::string name = {};
+    bool isBuffer = false, optional = false;
+    std::vector<rhi::TextureFormat> formats = {};  // those it accepts; empty: any
+    std::vector<std::uint32_t> samples = {};       // the same
+};
+
 /// A parameter that a pass class takes from the file: `"parameters": {"radius": 2.5}`.
 struct ParameterInfo {
     enum class Type : std::uint8_t { Number, Bool, Word };
@@ -110,6 +118,7 @@ public:
     /// no files and not listed.
     const std::vector<std::string>& files() const;
     const std::vector<SettingInfo>& settings() const;
+    std::vector<ImportInfo> imports() const;
     std::vector<std::string> drawLists() const;
     std::vector<std::string> exports() const;
     const Diagnostics& warnings() const;
