@@ -27,8 +27,7 @@ FunctorType kajiyaSpecular() {
     type.name = "KajiyaSpecular";
     type.description = "Kajiya-Kay highlight: exponent, its normalisation, and weights.";
     type.in = {port("enable", ValueType::Bool), port("exponent", ValueType::Float), port("weight", ValueType::Float)};
-    type.out = {port("exponent", ValueType::Float), port("norm", ValueType::Float), port("weight", ValueType::Float),
-                port("scale", ValueType::Float)};
+    type.out = {port("exponent", ValueType::Float), port("norm", ValueType::Float), port("weight", ValueType::Float)};
     type.run = [](std::span<const Value> in, FunctorOutputs& out) {
         const float exponent = std::max(in[1].number[0], 0.0F);
         const double p = static_cast<double>(exponent);
@@ -36,8 +35,7 @@ FunctorType kajiyaSpecular() {
         const double integral = 2.0 * std::numbers::pi * std::sqrt(std::numbers::pi) * ratio;
         out.set(0, Value::scalar(exponent));
         out.set(1, Value::scalar(static_cast<float>(1.0 / integral)));
-        out.set(2, in[2]);
-        out.set(3, Value::scalar(in[0].integer != 0 ? 1.0F : 0.0F));
+        out.set(2, Value::scalar(in[0].integer != 0 ? in[2].number[0] : 0.0F));
     };
     return type;
 }

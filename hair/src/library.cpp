@@ -62,7 +62,10 @@ Diagnostics unknownName(const char* code, const char* what, const std::string& n
 
 }  // namespace
 
-Library::Library(std::string dataDirectory) : directory_(std::move(dataDirectory)), functors_(functorRegistry()) {}
+Library::Library(std::string dataDirectory) : Library(std::move(dataDirectory), functorRegistry()) {}
+
+Library::Library(std::string dataDirectory, materials::FunctorRegistry functors)
+    : directory_(std::move(dataDirectory)), functors_(std::move(functors)) {}
 
 Checked<std::shared_ptr<const materials::MaterialType>> Library::materialType(const std::string& name) {
     const fs::path directory = fs::path(directory_) / "materials" / "types";
@@ -99,11 +102,23 @@ Checked<materials::Material::Parsed> Library::material(const std::string& nameOr
             return tl::unexpected(unknownName("L002", "material", nameOrPath, presets, known));
         }
     }
-    const fs::path beside = path.parent_path();
-    return materials::Material::load(path.string(), [&](const std::string& type) {
+    return materials::Material::load(path.string(), typesFor(path.string()), parentSource());
+}
+
+materials::Material::TypeSource Library::typesFor(const std::string& materialFile) {
+    return [this, beside = fs::path(materialFile).parent_path()](const std::string& type) {
         const fs::path near = beside / type;
         return materialType(isFile(near) ? near.string() : type);
-    });
+    };
+}
+
+materials::Material::ParentSource Library::parentSource() const {
+    return
+        [presets = fs::path(directory_) / "materials" / "presets"](const std::string& name, const std::string& file) {
+            const fs::path near = fs::path(file).parent_path() / name;
+            if (isFile(near) || !isFile(presets / name)) return near.string();
+            return (presets / name).string();
+        };
 }
 
 Checked<std::shared_ptr<const passes::PassTree>> Library::passTree(const std::string& nameOrPath) {

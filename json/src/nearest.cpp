@@ -73,4 +73,15 @@ std::string_view nearestName(std::string_view word, const std::vector<std::strin
     return best;
 }
 
+std::string nameHint(std::string_view word, const std::vector<std::string>& known) {
+    if (const std::string_view near = nearestName(word, known); !near.empty())
+        return "did you mean '" + std::string(near) + "'?";
+    if (known.empty() || known.size() > 16) return {};
+    std::vector<std::string> sorted = known;
+    std::sort(sorted.begin(), sorted.end());
+    std::string hint = "known: ";
+    for (std::size_t i = 0; i < sorted.size(); ++i) hint += (i ? ", " : "") + sorted[i];
+    return hint;
+}
+
 }  // namespace pelage

@@ -192,17 +192,6 @@ std::string shown(double number) {
     return {digits, result.ptr};
 }
 
-std::string nameHint(std::string_view word, const std::vector<std::string>& known) {
-    if (const std::string_view near = nearestName(word, known); !near.empty())
-        return "did you mean " + quoted(near) + "?";
-    if (known.empty() || known.size() > 16) return {};
-    std::vector<std::string> sorted = known;
-    std::sort(sorted.begin(), sorted.end());
-    std::string hint = "known: ";
-    for (std::size_t i = 0; i < sorted.size(); ++i) hint += (i ? ", " : "") + sorted[i];
-    return hint;
-}
-
 Range rangeOf(const Property& property) {
     Range range{-static_cast<double>(std::numeric_limits<float>::max()), std::numeric_limits<float>::max()};
     if (property.type == ValueType::Int)

@@ -24,8 +24,6 @@ bool isTexture(ValueType type);
 
 /// Shortest digits that give the same float back: 0.1, not 0.10000000149.
 std::string shown(double number);
-/// "did you mean 'x'?", or the list of what is known.
-std::string nameHint(std::string_view word, const std::vector<std::string>& known);
 
 /// The limits that hold at run time, from the file or from the type.
 struct Range {

@@ -135,6 +135,7 @@ ShaderDescription describeShader(const Member& member) {
     out.name = key(member);
     out.shader.name = member.key;
     out.shader.drawList = text(value, "drawList");
+    out.drawList = value.find("drawList")->place;
     out.shader.vertex = text(value, "vertex");
     out.shader.fragment = text(value, "fragment");
     if (const json::Value* enabled = value.find("enabled")) out.shader.enabledByDefault = enabled->boolean;
@@ -163,12 +164,28 @@ VersionDescription describeVersion(const json::Value& value) {
     VersionDescription out;
     out.to = whole(value, "to", 2);
     out.place = value.find("to")->place;
+    using Kind = VersionAction::Kind;
     for (const json::Value& action : value.find("actions")->elements) {
-        if (text(action, "op") == "rename") {
-            out.renames.push_back({word(*action.find("from")), word(*action.find("to"))});
-        } else {
-            out.values.push_back({word(*action.find("property")), action.find("value")});
+        const std::string op = text(action, "op");
+        const json::Value& property = *action.find(op == "rename" ? "from" : "property");
+        VersionDescription::Action& described = out.actions.emplace_back();
+        described.whole = action.place;
+        described.property = property.place;
+        described.action.kind = op == "rename"     ? Kind::Rename
+                                : op == "setValue" ? Kind::SetValue
+                                : op == "remove"   ? Kind::Remove
+                                                   : Kind::Remap;
+        described.action.property = property.string;
+        if (const json::Value* to = action.find("to")) {
+            described.action.to = to->string;
+            described.to = to->place;
         }
+        if (const json::Value* set = action.find("value")) {
+            described.action.value = *set;
+            described.value = set->place;
+        }
+        if (const json::Value* scale = action.find("scale")) described.action.scale = scale->number;
+        if (const json::Value* offset = action.find("offset")) described.action.offset = offset->number;
     }
     return out;
 }

@@ -3,6 +3,8 @@
 // (phase B). Reading it cannot fail; what the schema let through has the right shape.
 #pragma once
 
+#include "versions.hpp"
+
 #include <pelage/json/value.hpp>
 #include <pelage/materials/material.hpp>
 
@@ -42,6 +44,7 @@ struct OptionDescription {
 struct ShaderDescription {
     ShaderUse shader = {};
     Word name = {};
+    json::Place drawList = {};
     bool allOptions = false;
     std::vector<Word> options = {};
 };
@@ -68,11 +71,11 @@ struct PresetDescription {
 struct VersionDescription {
     std::int64_t to = 0;
     json::Place place = {};
-    struct Rename {
-        Word from = {}, to = {};
+    struct Action {
+        VersionAction action = {};
+        json::Place property = {}, to = {}, value = {}, whole = {};
     };
-    std::vector<Rename> renames = {};
-    std::vector<ValueDescription> values = {};
+    std::vector<Action> actions = {};
 };
 
 struct TypeDescription {

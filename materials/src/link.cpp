@@ -34,16 +34,6 @@ std::optional<std::size_t> MaterialType::Linked::indexOf(std::string_view proper
     return {};
 }
 
-std::string MaterialType::Linked::currentName(std::string_view propertyId) const {
-    std::string now(propertyId);
-    for (const VersionStep& step : versionSteps) {
-        for (const auto& [from, to] : step.renames) {
-            if (from == now) now = to;
-        }
-    }
-    return now;
-}
-
 MaterialType::Linked Linker::run() {
     out_.name = description_.name;
     out_.file = description_.file;
@@ -148,9 +138,9 @@ void Linker::linkDefaults() {
 }
 
 void Linker::condition(const std::optional<Word>& expression, std::string_view key, std::size_t property,
-                       std::vector<Condition>& out) {
+                       std::vector<json::Condition>& out) {
     if (!expression) return;
-    Outcome<Condition> parsed = Condition::parse(expression->text, out_.properties);
+    Outcome<json::Condition> parsed = json::Condition::parse(expression->text, names_);
     if (parsed) {
         for (const std::size_t read : parsed->reads()) propertyUsed_[read] = true;
         out.push_back(std::move(*parsed));
@@ -162,6 +152,14 @@ void Linker::condition(const std::optional<Word>& expression, std::string_view k
 }
 
 void Linker::linkConditions() {
+    using Type = json::ConditionNames::Type;
+    for (const Property& property : out_.properties) {
+        const Type type = property.type == ValueType::Bool     ? Type::Bool
+                          : property.type == ValueType::Enum   ? Type::Word
+                          : componentCount(property.type) == 1 ? Type::Number
+                                                               : Type::Other;
+        names_.names.push_back({property.id, type, property.words, property.type == ValueType::Float});
+    }
     out_.visibleWhen.resize(out_.properties.size());
     out_.enabledWhen.resize(out_.properties.size());
     const Word* group = nullptr;
@@ -228,6 +226,7 @@ void Linker::linkShaders() {
         }
         for (const std::size_t index : indices) shader.options.push_back(out_.options[index].name);
         out_.shaders.push_back(std::move(shader));
+        out_.drawListPlaces.push_back(description.drawList);
         out_.shaderOptions.push_back(std::move(indices));
     }
 }

@@ -2,8 +2,9 @@
 // A material type after all names were resolved: indices only, nothing left to look up at run time.
 #pragma once
 
-#include "condition.hpp"
+#include "versions.hpp"
 
+#include <pelage/json/condition.hpp>
 #include <pelage/materials/material.hpp>
 
 namespace pelage::materials {
@@ -31,12 +32,6 @@ struct Preset {
     std::vector<std::pair<std::size_t, Value>> values = {};
 };
 
-struct VersionStep {
-    int to = 0;
-    std::vector<std::pair<std::string, std::string>> renames = {};
-    std::vector<std::pair<std::size_t, Value>> values = {};
-};
-
 struct MaterialType::Linked {
     std::string name = {}, file = {};
     int version = 1;
@@ -45,19 +40,18 @@ struct MaterialType::Linked {
     std::vector<std::size_t> inputSlots = {};  // place in CompiledMaterial::inputs or ::textures
     std::vector<Option> options = {};
     std::vector<ShaderUse> shaders = {};
+    std::vector<json::Place> drawListPlaces = {};              // by shader
     std::vector<std::vector<std::size_t>> shaderOptions = {};  // indices of ShaderUse::options
     std::vector<Connection> connections = {};
     std::vector<FunctorUse> functors = {};
-    std::vector<std::vector<Condition>> visibleWhen = {};  // by property; all must hold (group and property)
-    std::vector<std::vector<Condition>> enabledWhen = {};
+    std::vector<std::vector<json::Condition>> visibleWhen = {};  // by property; all must hold (group and property)
+    std::vector<std::vector<json::Condition>> enabledWhen = {};
     std::vector<Preset> presets = {};
     std::vector<std::string> presetNames = {};
     std::vector<VersionStep> versionSteps = {};
     Diagnostics warnings = {};
 
     std::optional<std::size_t> indexOf(std::string_view propertyId) const;
-    /// The name a property has now, following renames from any older version.
-    std::string currentName(std::string_view propertyId) const;
 };
 
 std::vector<std::string> propertyIds(const std::vector<Property>& properties);

@@ -5,11 +5,11 @@
 
 namespace pelage::materials {
 
-std::optional<Value> Linker::value(const ValueDescription& description, std::size_t property) {
-    Conversion converted = convert(out_.properties[property], *description.value);
+std::optional<Value> Linker::value(const json::Value& written, std::size_t property) {
+    Conversion converted = convert(out_.properties[property], written);
     if (converted.problem) {
         // A clamped number in a type is the author's mistake, unlike in a material, where the range may have moved.
-        error(converted.problem->code, description.value->place, converted.problem->text,
+        error(converted.problem->code, written.place, converted.problem->text,
               converted.value ? "write a number inside the range" : converted.problem->hint);
     }
     return converted.value;
@@ -28,34 +28,70 @@ void Linker::linkVersions() {
         last = std::max(last, description.to);
         VersionStep step;
         step.to = static_cast<int>(description.to);
-        for (const VersionDescription::Rename& rename : description.renames) {
-            if (out_.indexOf(rename.from.text))
-                error("M042", rename.from.place, quoted(rename.from.text) + " is renamed but still exists",
-                      "old names never return");
-            const auto [first, isNew] = retired.emplace(rename.from.text, rename.from.place);
-            if (!isNew)
-                error("M042", rename.from.place, quoted(rename.from.text) + " is renamed twice",
-                      "first at " + text(first->second));
-            step.renames.emplace_back(rename.from.text, rename.to.text);
+        for (const VersionDescription::Action& described : description.actions) {
+            retire(described, retired);
+            step.actions.push_back(described.action);
         }
         out_.versionSteps.push_back(std::move(step));
     }
-    // Where a name leads is known only when all renames are.
+    // Where a name leads is known only when all steps are.
     for (std::size_t i = 0; i < description_.versions.size(); ++i) {
-        for (const VersionDescription::Rename& rename : description_.versions[i].renames) {
-            if (!out_.indexOf(out_.currentName(rename.to.text)))
-                error("M041", rename.to.place, "rename leads to " + quoted(rename.to.text) + ", which does not exist",
-                      nameHint(rename.to.text, propertyIds(out_.properties)));
+        for (const VersionDescription::Action& described : description_.versions[i].actions)
+            linkAction(described, out_.versionSteps[i]);
+    }
+}
+
+void Linker::retire(const VersionDescription::Action& described, std::map<std::string, json::Place>& retired) {
+    using Kind = VersionAction::Kind;
+    const VersionAction& action = described.action;
+    if (action.kind != Kind::Rename && action.kind != Kind::Remove) return;
+    const std::string what = quoted(action.property) + (action.kind == Kind::Rename ? " is renamed" : " is removed");
+    if (out_.indexOf(action.property))
+        error("M042", described.property, what + " but still exists", "old names never return");
+    const auto [first, isNew] = retired.emplace(action.property, described.property);
+    // A name may be given up once: what it stood for afterwards would depend on who reads the file.
+    if (!isNew)
+        error("M042", described.property,
+              what + (action.kind == Kind::Rename ? " twice" : ", but its name was given up before"),
+              "first at " + text(first->second));
+}
+
+void Linker::linkAction(const VersionDescription::Action& described, VersionStep& step) {
+    using Kind = VersionAction::Kind;
+    const VersionAction& action = described.action;
+    if (action.kind == Kind::Remove) return;
+    const std::string& name = action.kind == Kind::Rename ? action.to : action.property;
+    const Followed now = follow(out_.versionSteps, name, action.value, step.to);
+    const auto property = out_.indexOf(now.name);
+    const bool removedLater = now.removedIn > step.to;
+    if (!property && !removedLater) {
+        const std::string hint = nameHint(name, propertyIds(out_.properties));
+        if (action.kind == Kind::Rename) {
+            error("M041", described.to, "rename leads to " + quoted(name) + ", which does not exist", hint);
+        } else {
+            error("M043", described.property,
+                  (action.kind == Kind::Remap ? "remap" : "setValue") + std::string(" names unknown property ") +
+                      quoted(name),
+                  hint);
         }
-        for (const ValueDescription& set : description_.versions[i].values) {
-            const auto property = out_.indexOf(out_.currentName(set.property.text));
-            if (!property) {
-                error("M043", set.property.place, "setValue names unknown property " + quoted(set.property.text),
-                      nameHint(set.property.text, propertyIds(out_.properties)));
-            } else if (const std::optional<Value> value = this->value(set, *property)) {
-                out_.versionSteps[i].values.emplace_back(*property, *value);
-            }
+        return;
+    }
+    if (action.kind == Kind::Remap) {
+        const bool idle = action.scale == 1 && action.offset == 0;
+        if (action.scale == 0 || idle)
+            error("M044", described.whole,
+                  "remap of " + quoted(name) + (idle ? " changes nothing" : " makes all values equal"),
+                  "write a \"scale\" or an \"offset\"");
+        if (property) {
+            const ValueType type = out_.properties[*property].type;
+            if (type < ValueType::Float || type > ValueType::Float4)
+                error("M044", described.property,
+                      "remap of " + quoted(name) + ", which is " + std::string(materials::name(type)),
+                      "only float to float4 can be remapped");
         }
+    } else if (action.kind == Kind::SetValue && property && !removedLater) {
+        if (const std::optional<Value> value = this->value(now.value, *property))
+            step.values.push_back({*property, *value, now.value});
     }
 }
 
@@ -68,7 +104,7 @@ void Linker::linkPresets() {
                 error("V002", set.property.place,
                       "preset " + quoted(preset.name) + ": the type has no property " + quoted(set.property.text),
                       nameHint(set.property.text, propertyIds(out_.properties)));
-            } else if (const std::optional<Value> value = this->value(set, *property)) {
+            } else if (const std::optional<Value> value = this->value(*set.value, *property)) {
                 preset.values.emplace_back(*property, *value);
             }
         }

@@ -31,7 +31,7 @@ private:
     bool drive(const Target& target, const Word& by, std::string what);
     bool optionFits(const Property& property, const Option& option, const Word& at);
     void condition(const std::optional<Word>& text, std::string_view key, std::size_t property,
-                   std::vector<Condition>& out);
+                   std::vector<json::Condition>& out);
     // link_functors.cpp
     void linkFunctors();
     void linkFunctor(const FunctorDescription& description);
@@ -44,8 +44,10 @@ private:
     void optionDefault(const Target& target, const Value& value, std::string_view by);
     // link_versions.cpp
     void linkVersions();
+    void retire(const VersionDescription::Action& described, std::map<std::string, json::Place>& retired);
+    void linkAction(const VersionDescription::Action& described, VersionStep& step);
     void linkPresets();
-    std::optional<Value> value(const ValueDescription& description, std::size_t property);
+    std::optional<Value> value(const json::Value& written, std::size_t property);
 
     void error(std::string code, json::Place place, std::string text, std::string hint = {});
     void warn(std::string code, json::Place place, std::string text, std::string hint = {});
@@ -55,6 +57,7 @@ private:
     const FunctorRegistry& registry_;
     MaterialType::Linked out_ = {};
     Diagnostics diagnostics_ = {};
+    json::ConditionNames names_ = {};  // what a condition may read: the properties, by their index
     struct Driver {
         Target target = {};
         std::string what = {};

@@ -78,20 +78,28 @@ std::optional<Diagnostic> Material::applyPreset(std::string_view name) {
                       nameHint(name, type_->presets())};
 }
 
+namespace {
+
+bool hold(const std::vector<json::Condition>& conditions, const std::vector<Value>& values) {
+    const auto read = [&](std::size_t property) {
+        const Value& value = values[property];
+        return value.type == ValueType::Float ? static_cast<double>(value.number[0])
+                                              : static_cast<double>(value.integer);
+    };
+    return std::all_of(conditions.begin(), conditions.end(),
+                       [&](const json::Condition& each) { return each.evaluate(read); });
+}
+
+}  // namespace
+
 bool Material::isVisible(std::string_view id) const {
     const auto index = type_->linked().indexOf(id);
-    if (!index) return true;
-    const std::vector<Condition>& conditions = type_->linked().visibleWhen[*index];
-    return std::all_of(conditions.begin(), conditions.end(),
-                       [&](const Condition& each) { return each.evaluate(values_); });
+    return !index || hold(type_->linked().visibleWhen[*index], values_);
 }
 
 bool Material::isEnabled(std::string_view id) const {
     const auto index = type_->linked().indexOf(id);
-    if (!index) return true;
-    const std::vector<Condition>& conditions = type_->linked().enabledWhen[*index];
-    return std::all_of(conditions.begin(), conditions.end(),
-                       [&](const Condition& each) { return each.evaluate(values_); });
+    return !index || hold(type_->linked().enabledWhen[*index], values_);
 }
 
 }  // namespace pelage::materials

@@ -2,6 +2,8 @@
 #include "linker.hpp"
 #include "schemas.hpp"
 
+#include <algorithm>
+
 namespace pelage::materials {
 namespace {
 
@@ -65,6 +67,19 @@ const std::vector<ShaderUse>& MaterialType::shaders() const {
 }
 const std::vector<std::string>& MaterialType::presets() const {
     return linked_->presetNames;
+}
+Diagnostics MaterialType::unknownDrawLists(const std::vector<std::string>& known) const {
+    Diagnostics out;
+    for (std::size_t i = 0; i < linked_->shaders.size(); ++i) {
+        const ShaderUse& shader = linked_->shaders[i];
+        if (std::find(known.begin(), known.end(), shader.drawList) != known.end()) continue;
+        const json::Place place = linked_->drawListPlaces[i];
+        out.add({Severity::Warning, "M017", linked_->file, place.line, place.column,
+                 "shader " + quoted(shader.name) + ": the pass tree has no draw list " + quoted(shader.drawList) +
+                     "; nothing draws it",
+                 nameHint(shader.drawList, known)});
+    }
+    return out;
 }
 const Diagnostics& MaterialType::warnings() const {
     return linked_->warnings;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Conditions of a pass tree: || && ! == != < <= > >= in [..], numbers, 'words', settings, host.has('Import').
-// Parsed and typed once; evaluated for settings and imports.
+// Conditions of a pass tree: json::Condition over settings and host.has('Import').
 #pragma once
 
+#include <pelage/json/condition.hpp>
 #include <pelage/json/value.hpp>
 #include <pelage/passes/tree.hpp>
 
@@ -33,11 +33,15 @@ public:
     /// Settings it looks at, for the warning about settings without effect.
     const std::vector<std::string>& settings() const { return settings_; }
 
-    struct Node;
-
 private:
+    struct Read {
+        bool isImport = false;
+        std::string name = {};
+        std::vector<std::string> words = {};  // of an enum setting
+    };
     std::string text_ = {};
-    std::shared_ptr<const Node> root_ = {};
+    json::Condition condition_ = {};
+    std::map<std::size_t, Read> reads_ = {};  // what each index of the condition stands for
     std::vector<std::string> settings_ = {};
 };
 

@@ -10,15 +10,12 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <memory>
+#include <set>
 
 namespace pelage::app {
 
 namespace {
-
-template <class T>
-Diagnostics faultsOf(const Checked<T>& read, const Diagnostics& warnings) {
-    return read ? warnings : read.error();
-}
 
 Diagnostics checkPassTree(const std::string& path) {
     const auto tree = passes::PassTree::load(path);
@@ -29,7 +26,41 @@ Diagnostics checkPassTree(const std::string& path) {
     return found;
 }
 
-Diagnostics checkFile(const std::string& path, hair::Library& library) {
+// Those of the pass trees among the files; without one, those of the tree that scenes have unless they say another.
+std::vector<std::string> drawListsOf(const std::vector<std::string>& files, hair::Library& library) {
+    std::vector<std::string> lists;
+    bool any = false;
+    for (const std::string& file : files) {
+        if (!file.ends_with(".pass.json")) continue;
+        any = true;
+        const auto tree = passes::PassTree::load(file);
+        if (!tree) continue;
+        const auto more = (*tree)->drawLists();
+        lists.insert(lists.end(), more.begin(), more.end());
+    }
+    if (any) return lists;
+    const auto tree = library.passTree(hair::SceneFile().passTree);
+    return tree ? (*tree)->drawLists() : lists;
+}
+
+Diagnostics checkScene(const std::string& path, hair::Library& library) {
+    auto scene = hair::loadScene(path, library);
+    if (!scene) return scene.error();
+    Diagnostics found = scene->notes;
+    const auto tree = library.passTree(scene->passTree);
+    if (!tree) {
+        found.append(tree.error());
+        return found;
+    }
+    std::set<std::shared_ptr<const materials::MaterialType>> types;
+    for (const hair::Object& object : scene->scene.objects) {
+        const auto& type = object.material.sharedType();
+        if (types.insert(type).second) found.append(type->unknownDrawLists((*tree)->drawLists()));
+    }
+    return found;
+}
+
+Diagnostics checkFile(const std::string& path, const std::vector<std::string>& drawLists, hair::Library& library) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(path, ignored)) {
         Diagnostics found;
@@ -39,16 +70,19 @@ Diagnostics checkFile(const std::string& path, hair::Library& library) {
     if (path.ends_with(".pass.json")) return checkPassTree(path);
     if (path.ends_with(".materialtype.json")) {
         const auto type = materials::MaterialType::load(path, hair::functorRegistry());
-        return faultsOf(type, type ? (*type)->warnings() : Diagnostics());
+        if (!type) return type.error();
+        Diagnostics found = (*type)->warnings();
+        found.append((*type)->unknownDrawLists(drawLists));
+        return found;
     }
     if (path.ends_with(".material.json")) {
         const auto material = library.material(path.find('/') == std::string::npos ? "./" + path : path);
-        return faultsOf(material, material ? material->warnings : Diagnostics());
+        if (!material) return material.error();
+        Diagnostics found = material->warnings;
+        found.append(material->material.type().unknownDrawLists(drawLists));
+        return found;
     }
-    if (path.ends_with(".scene.json")) {
-        const auto scene = hair::loadScene(path, library);
-        return faultsOf(scene, scene ? scene->notes : Diagnostics());
-    }
+    if (path.ends_with(".scene.json")) return checkScene(path, library);
     Diagnostics found;
     found.add({.code = "A050",
                .file = path,
@@ -61,9 +95,10 @@ Diagnostics checkFile(const std::string& path, hair::Library& library) {
 
 int check(const CheckOptions& options) {
     hair::Library library(dataDirectory());
+    const std::vector<std::string> drawLists = drawListsOf(options.files, library);
     int result = exitOk;
     for (const std::string& file : options.files) {
-        const Diagnostics found = checkFile(file, library);
+        const Diagnostics found = checkFile(file, drawLists, library);
         if (options.json) {
             std::fputs(found.jsonLines().c_str(), stdout);
         } else {

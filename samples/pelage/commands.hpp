@@ -67,6 +67,7 @@ struct AccuracyOptions {
 int accuracy(const AccuracyOptions& options);
 
 int info(const std::vector<std::string>& files);
+int migrate(const std::vector<std::string>& files);
 
 struct CheckOptions {
     std::vector<std::string> files = {};

@@ -176,6 +176,8 @@ int run(int argc, char** argv) {
     addFiles(app, "info", "Say what is in hair files", files, result, info);
     addCheck(app, checkOptions, result);
     addGraph(app, graphOptions, result);
+    addFiles(app, "migrate", "Rewrite material files for the present version of their type; comments are not kept",
+             files, result, migrate);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& help) {

@@ -28,6 +28,7 @@ int render(const RenderOptions& options) {
     if (!picture) return report(Failure(picture.error()));
 
     warn(stage->file.notes);
+    warn(picture->report.notes);
     std::vector<std::string> outputs = options.outputs;
     if (outputs.empty()) outputs.push_back(stage->name + ".png");
     for (const std::string& output : outputs) {

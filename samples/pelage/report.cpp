@@ -26,7 +26,9 @@ std::string reportText(const hair::FrameReport& report) {
     attachments.add({"all", "", "", "", std::to_string(total)});
     std::string text = passes.text() + "\n" + attachments.text() + "\n";
     text += std::to_string(report.draws) + " draws, " + std::to_string(report.barriers) + " barriers, " +
-            std::to_string(report.triangles) + " triangles, " + std::to_string(report.segments) + " segments\n";
+            std::to_string(report.triangles) + " triangles, " + std::to_string(report.segments) + " segments, " +
+            std::to_string(report.pipelinesMade) + " pipelines of materials made, " +
+            std::to_string(report.pipelinesPending) + " pending\n";
     for (const std::string& culled : report.culled) text += "culled " + culled + "\n";
     return text;
 }

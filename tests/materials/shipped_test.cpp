@@ -55,9 +55,12 @@ TEST(Shipped, InputsAndOptionsAreTheShadersNames) {
     const std::vector<std::vector<std::string>> ownInputs{
         {"sigmaA", "colorFit", "gainR", "gainTT", "gainTRT", "gainRES", "fiber0", "fiber1", "inverseVariance", "norm",
          "deviation", "sinTilt", "cosTilt", "glint", "envInverseVariance", "envNorm", "envDeviation", "momentTable"},
-        {"specularColor", "specularExponent", "specularNorm", "specularWeight", "diffuseWeight", "specularScale"},
+        {"specularColor", "specularExponent", "specularNorm", "specularWeight", "diffuseWeight"},
         {"metallic", "roughness", "fresnelF0", "specularScale"}};
-    const std::vector<std::vector<std::string>> ownOptions{{"lobeR", "lobeTT", "lobeTRT", "lobeRES", "attenuationModel", "scatteringModel", "asPublished", "chiangColor"}, {}, {}};
+    const std::vector<std::vector<std::string>> ownOptions{
+        {"lobeR", "lobeTT", "lobeTRT", "lobeRES", "attenuationModel", "scatteringModel", "asPublished", "chiangColor"},
+        {},
+        {}};
     const std::vector<std::string> fragments{"hair_forward.frag", "kajiya_forward.frag", "pbr_forward.frag"};
     for (std::size_t i = 0; i < typeNames.size(); ++i) {
         const auto type = shipped(typeNames[i]);

@@ -4,6 +4,8 @@
 // a place for each fault.
 #include "support.hpp"
 
+#include <pelage/materials/migrate.hpp>
+
 #include <pelage/json/value.hpp>
 
 #include <filesystem>
@@ -77,7 +79,7 @@ private:
 };
 
 struct Counts {
-    int edits = 0, accepted = 0, silent = 0;
+    int edits = 0, accepted = 0, silent = 0, migrated = 0;
 };
 
 constexpr std::string_view replacements[] = {"", "null", "[]", "{}", "\"x\"", "1", "-1.5", "true"};
@@ -154,12 +156,20 @@ TEST(StructureFuzz, NoEditOfAShippedMaterialThrowsOrCrashes) {
             ++out.accepted;
             out.silent += parsed->warnings.empty() ? 1 : 0;
             parsed->material.compile();
+            const auto migrated = migrate(text, "I", source);
+            ASSERT_TRUE(migrated) << migrated.error().text();
+            total.migrated += migrated->isNeeded ? 1 : 0;
+            const auto again = Material::parse(migrated->text, "I", source);
+            ASSERT_TRUE(again) << again.error().text() << migrated->text;
+            for (const Property& property : again->material.type().properties())
+                ASSERT_EQ(*again->material.get(property.id), *parsed->material.get(property.id)) << migrated->text;
         });
         total.edits += counts.edits;
         total.silent += counts.silent;
     }
-    std::printf("%d edits of materials: %d without a word\n", total.edits, total.silent);
+    std::printf("%d edits of materials: %d without a word, %d migrated\n", total.edits, total.silent, total.migrated);
     EXPECT_GT(total.edits, 500);
+    EXPECT_GT(total.migrated, 0);
 }
 
 TEST(StructureFuzz, DamagedBytesOfATypeNeverThrowOrCrash) {

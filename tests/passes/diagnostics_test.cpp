@@ -235,8 +235,8 @@ const std::vector<Case>& cases() {
         {"E001", When::Parse, "lights > 0", "lights >", "\"lights >\"", 9, "expected"},
         {"E002", When::Parse, "lights > 0", "light > 0", "\"light > 0\"", 1, "'lights'"},
         {"E002", When::Parse, "host.has('Screen')", "host.has('Scren')", "'Scren'", 0, "'Screen'"},
-        {"E003", When::Parse, "msaa == '1'", "msaa == '2'", "'2'", 0, "known: 1 4"},
-        {"E004", When::Parse, "lights > 0", "lights == 'two'", "\"lights == 'two'\"", 8, "compare"},
+        {"E003", When::Parse, "msaa == '1'", "msaa == '2'", "'2'", 0, "known: 1, 4"},
+        {"E004", When::Parse, "lights > 0", "lights == 'two'", "'two'", 0, "compare"},
     };
     return all;
 }

@@ -75,7 +75,7 @@ TEST(Expression, DepthAndLengthAreBounded) {
     EXPECT_EQ(fault(std::string(200, '!') + "overlay"), "E001");
     EXPECT_TRUE(holds(std::string(20, '(') + "overlay" + std::string(20, ')')));
     std::string chain = "overlay";
-    while (chain.size() < 480) chain += " || overlay";
+    while (chain.size() < 1000) chain += " || overlay";
     EXPECT_TRUE(holds(chain));
     while (chain.size() < 100000) chain += " || overlay";
     EXPECT_EQ(fault(chain), "E001");

@@ -56,6 +56,67 @@ TEST_F(Check, EveryFaultIsOneLine) {
     EXPECT_NE(result.err.find("bad.scene.json:3:3"), std::string::npos) << result.err;
 }
 
+// The shipped type with one draw list renamed; a tree among the files that has it makes it right.
+TEST_F(Check, ADrawListThatNoTreeHasIsNamed) {
+    std::string type = read(std::string(PELAGE_DATA_DIR) + "/materials/types/hair.materialtype.json");
+    type.replace(type.find("\"drawList\": \"shadow\""), 20, "\"drawList\": \"shadows\"");
+    const std::string file = write("mine.materialtype.json", type);
+    const RunResult warned = run({"check", file});
+    EXPECT_EQ(warned.exitCode, 0) << "a warning";
+    EXPECT_NE(warned.err.find("warning M017: shader 'shadow': the pass tree has no draw list 'shadows'"),
+              std::string::npos)
+        << warned.err;
+    EXPECT_NE(warned.err.find("did you mean 'shadow'?"), std::string::npos) << warned.err;
+    std::string tree = read(std::string(PELAGE_DATA_DIR) + "/passes/templates/hair_frame.pass.json");
+    tree.replace(tree.find("\"shadow\", \"depth\""), 8, "\"shadows\"");
+    tree.replace(tree.find("\"drawList\": \"shadow\""), 20, "\"drawList\": \"shadows\"");
+    const RunResult clean = run({"check", file, write("mine.pass.json", tree)});
+    EXPECT_EQ(clean.exitCode, 0);
+    EXPECT_EQ(clean.err, "");
+    const std::string material = write("mine.material.json",
+                                       R"({ "format": "pelage.material/1", "type": "mine.materialtype.json",
+                                            "typeVersion": 3, "values": {} })");
+    EXPECT_EQ(run({"check", material}).errorLines(), 1U);
+}
+
+TEST_F(Check, MigrateRewritesOlderMaterialsAndLeavesOthersAlone) {
+    const std::string old = write("old.material.json",
+                                  "{ \"format\": \"pelage.material/1\", \"type\": \"hair.materialtype.json\",\n"
+                                  "  \"typeVersion\": 1, // then\n"
+                                  "  \"values\": { \"scattering.roughness\": 0.3 } }\n");
+    const RunResult first = run({"migrate", old});
+    EXPECT_EQ(first.exitCode, 0) << first.err;
+    EXPECT_EQ(first.errorLines(), 1U) << "V007: " << first.err;
+    EXPECT_EQ(read(old),
+              "{\n    \"format\": \"pelage.material/1\",\n    \"type\": \"hair.materialtype.json\",\n"
+              "    \"typeVersion\": 3,\n    \"values\": {\n        \"scattering.longitudinalRoughness\": 0.3,\n"
+              "        \"shadowing.mode\": \"pcf\",\n        \"scattering.model\": \"thesis\"\n    }\n}\n");
+    const std::string after = read(old);
+    const RunResult second = run({"migrate", old});
+    EXPECT_EQ(second.exitCode, 0);
+    EXPECT_NE(second.out.find("version 3 already"), std::string::npos) << second.out;
+    EXPECT_EQ(read(old), after);
+    const std::string bad = write("bad.material.json", "{}");
+    EXPECT_EQ(run({"migrate", bad, old}).exitCode, 2);
+    EXPECT_EQ(read(bad), "{}");
+    EXPECT_EQ(run({"check", old}).err, "");
+}
+
+// A preset may be the parent of a material that lies anywhere.
+TEST_F(Check, ParentsAreFoundBesideTheFileAndAmongThePresets) {
+    const auto material = [](const std::string& parent) {
+        return "{ \"format\": \"pelage.material/1\", \"type\": \"hair.materialtype.json\", \"typeVersion\": 3,\n"
+               "\"parent\": \"" +
+               parent + "\", \"values\": {} }";
+    };
+    EXPECT_EQ(run({"check", write("child.material.json", material("brown.material.json"))}).err, "");
+    const RunResult gone = run({"check", write("orphan.material.json", material("browne.material.json"))});
+    EXPECT_EQ(gone.exitCode, 2);
+    EXPECT_NE(gone.err.find("orphan.material.json:2:11: error V012"), std::string::npos) << gone.err;
+    write("browne.material.json", material("child.material.json"));
+    EXPECT_EQ(run({"check", path("orphan.material.json")}).err, "");
+}
+
 TEST_F(Check, ExitCodes) {
     EXPECT_EQ(run({"check", path("gone.pass.json")}).exitCode, 2);
     EXPECT_EQ(run({"check", write("what.json", "{}")}).exitCode, 2);

@@ -64,8 +64,8 @@ std::vector<std::string> NullDriver::alive() const {
 
 using F = NullDriver::Functions;
 
-#define PELAGE_NULL_LOCK(handle)              \
-    NullDriver& d = driverOf(handle);         \
+#define PELAGE_NULL_LOCK(handle)      \
+    NullDriver& d = driverOf(handle); \
     const std::lock_guard lock(d.mutex_)
 #define PELAGE_NULL_FAIL(name) \
     if (const VkResult r = d.mayFail(#name); r != VK_SUCCESS) return r
@@ -174,7 +174,8 @@ void F::vkGetPhysicalDeviceFormatProperties2(VkPhysicalDevice, VkFormat, VkForma
 }
 VkResult F::vkGetPhysicalDeviceImageFormatProperties2(VkPhysicalDevice, const VkPhysicalDeviceImageFormatInfo2*,
                                                       VkImageFormatProperties2* out) {
-    out->imageFormatProperties = {{16384, 16384, 2048}, 15, 2048, VK_SAMPLE_COUNT_1_BIT | VK_SAMPLE_COUNT_4_BIT, 1ULL << 32};
+    out->imageFormatProperties = {
+        {16384, 16384, 2048}, 15, 2048, VK_SAMPLE_COUNT_1_BIT | VK_SAMPLE_COUNT_4_BIT, 1ULL << 32};
     return VK_SUCCESS;
 }
 VkResult F::vkEnumerateDeviceExtensionProperties(VkPhysicalDevice, const char*, std::uint32_t* count,
@@ -182,7 +183,8 @@ VkResult F::vkEnumerateDeviceExtensionProperties(VkPhysicalDevice, const char*, 
     *count = 0;
     return VK_SUCCESS;
 }
-VkResult F::vkCreateDevice(VkPhysicalDevice physical, const VkDeviceCreateInfo*, const VkAllocationCallbacks*, VkDevice* out) {
+VkResult F::vkCreateDevice(VkPhysicalDevice physical, const VkDeviceCreateInfo*, const VkAllocationCallbacks*,
+                           VkDevice* out) {
     PELAGE_NULL_LOCK(physical);
     PELAGE_NULL_FAIL(vkCreateDevice);
     *out = reinterpret_cast<VkDevice>(&d);
@@ -228,7 +230,8 @@ VkResult F::vkMapMemory(VkDevice device, VkDeviceMemory memory, VkDeviceSize off
     *out = m.bytes.get() + offset;
     return VK_SUCCESS;
 }
-VkResult F::vkCreateBuffer(VkDevice device, const VkBufferCreateInfo* info, const VkAllocationCallbacks*, VkBuffer* out) {
+VkResult F::vkCreateBuffer(VkDevice device, const VkBufferCreateInfo* info, const VkAllocationCallbacks*,
+                           VkBuffer* out) {
     PELAGE_NULL_LOCK(device);
     PELAGE_NULL_FAIL(vkCreateBuffer);
     const auto handle = d.make("VkBuffer");
@@ -372,7 +375,8 @@ VkResult F::vkAllocateDescriptorSets(VkDevice device, const VkDescriptorSetAlloc
     *out = reinterpret_cast<VkDescriptorSet>(handle);
     return VK_SUCCESS;
 }
-VkResult F::vkFreeDescriptorSets(VkDevice device, VkDescriptorPool pool, std::uint32_t count, const VkDescriptorSet* sets) {
+VkResult F::vkFreeDescriptorSets(VkDevice device, VkDescriptorPool pool, std::uint32_t count,
+                                 const VkDescriptorSet* sets) {
     PELAGE_NULL_LOCK(device);
     for (std::uint32_t i = 0; i < count; ++i) {
         d.destroy("VkDescriptorSet", id(sets[i]));
@@ -411,17 +415,22 @@ void F::addPipeline(NullDriver& d, std::uint64_t pipeline, const VkPipelineShade
     d.pipelines_.try_emplace(pipeline);
 }
 VkResult F::vkCreateGraphicsPipelines(VkDevice device, VkPipelineCache, std::uint32_t,
-                                      const VkGraphicsPipelineCreateInfo* info, const VkAllocationCallbacks*, VkPipeline* out) {
+                                      const VkGraphicsPipelineCreateInfo* info, const VkAllocationCallbacks*,
+                                      VkPipeline* out) {
     PELAGE_NULL_LOCK(device);
     PELAGE_NULL_FAIL(vkCreateGraphicsPipelines);
     const auto handle = d.make("VkPipeline");
     ++d.pipelinesCreated;
     for (std::uint32_t i = 0; i < info->stageCount; ++i) addPipeline(d, handle, info->pStages[i]);
+    const auto& input = *info->pVertexInputState;
+    for (std::uint32_t i = 0; i < input.vertexBindingDescriptionCount; ++i)
+        d.vertexBindings_[handle].push_back(input.pVertexBindingDescriptions[i].binding);
     *out = reinterpret_cast<VkPipeline>(handle);
     return VK_SUCCESS;
 }
 VkResult F::vkCreateComputePipelines(VkDevice device, VkPipelineCache, std::uint32_t,
-                                     const VkComputePipelineCreateInfo* info, const VkAllocationCallbacks*, VkPipeline* out) {
+                                     const VkComputePipelineCreateInfo* info, const VkAllocationCallbacks*,
+                                     VkPipeline* out) {
     PELAGE_NULL_LOCK(device);
     PELAGE_NULL_FAIL(vkCreateComputePipelines);
     const auto handle = d.make("VkPipeline");
@@ -433,7 +442,8 @@ VkResult F::vkCreateComputePipelines(VkDevice device, VkPipelineCache, std::uint
 
 // --- Queue.
 
-VkResult F::vkCreateSemaphore(VkDevice device, const VkSemaphoreCreateInfo*, const VkAllocationCallbacks*, VkSemaphore* out) {
+VkResult F::vkCreateSemaphore(VkDevice device, const VkSemaphoreCreateInfo*, const VkAllocationCallbacks*,
+                              VkSemaphore* out) {
     PELAGE_NULL_LOCK(device);
     PELAGE_NULL_FAIL(vkCreateSemaphore);
     const auto handle = d.make("VkSemaphore");
@@ -453,12 +463,13 @@ VkResult F::vkWaitSemaphores(VkDevice device, const VkSemaphoreWaitInfo* info, s
     return d.semaphores_[id(info->pSemaphores[0])] >= info->pValues[0] ? VK_SUCCESS : VK_TIMEOUT;
 }
 
-#define PELAGE_NULL_SIMPLE(Type)                                                                       \
-    VkResult F::vkCreate##Type(VkDevice device, const Vk##Type##CreateInfo*, const VkAllocationCallbacks*, Vk##Type* out) { \
-        PELAGE_NULL_LOCK(device);                                                                      \
-        PELAGE_NULL_FAIL(vkCreate##Type);                                                              \
-        *out = reinterpret_cast<Vk##Type>(d.make("Vk" #Type));                                         \
-        return VK_SUCCESS;                                                                             \
+#define PELAGE_NULL_SIMPLE(Type)                                                                           \
+    VkResult F::vkCreate##Type(VkDevice device, const Vk##Type##CreateInfo*, const VkAllocationCallbacks*, \
+                               Vk##Type* out) {                                                            \
+        PELAGE_NULL_LOCK(device);                                                                          \
+        PELAGE_NULL_FAIL(vkCreate##Type);                                                                  \
+        *out = reinterpret_cast<Vk##Type>(d.make("Vk" #Type));                                             \
+        return VK_SUCCESS;                                                                                 \
     }
 PELAGE_NULL_SIMPLE(Sampler)
 PELAGE_NULL_SIMPLE(DescriptorPool)
@@ -467,11 +478,11 @@ PELAGE_NULL_SIMPLE(PipelineCache)
 PELAGE_NULL_SIMPLE(QueryPool)
 #undef PELAGE_NULL_SIMPLE
 
-#define PELAGE_NULL_DESTROY(Type, map)                                                     \
+#define PELAGE_NULL_DESTROY(Type, map)                                                        \
     void F::vkDestroy##Type(VkDevice device, Vk##Type object, const VkAllocationCallbacks*) { \
-        PELAGE_NULL_LOCK(device);                                                          \
-        d.destroy("Vk" #Type, id(object));                                                 \
-        map;                                                                               \
+        PELAGE_NULL_LOCK(device);                                                             \
+        d.destroy("Vk" #Type, id(object));                                                    \
+        map;                                                                                  \
     }
 PELAGE_NULL_DESTROY(ImageView, d.views_.erase(id(object)))
 PELAGE_NULL_DESTROY(Sampler, )

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: MIT
 // A Vulkan 1.3 driver that does no work: it makes handles, remembers which are alive, keeps what a command buffer was
-// told, and signals at once. With it the whole library, and the whole renderer above it, run without a device; every call
-// that can fail can be made to fail; and a HazardOracle sees every access and every barrier in the order of the queue.
+// told, and signals at once. With it the whole library, and the whole renderer above it, run without a device; every
+// call that can fail can be made to fail; and a HazardOracle sees every access and every barrier in the order of the
+// queue.
 #pragma once
 
 #include "hazard_oracle.hpp"
@@ -35,8 +36,8 @@ public:
     std::optional<std::string> failed() const { return failed_; }
     VkDriverId driverId = VK_DRIVER_ID_MESA_RADV;
     bool keepCommands = true;  // false: command buffers are not looked at
-    /// Sees the commands of each submission, in order. `dropBarrier`: the barrier call (counted from 0, since `oracle` was
-    /// set) that the oracle does not see.
+    /// Sees the commands of each submission, in order. `dropBarrier`: the barrier call (counted from 0, since `oracle`
+    /// was set) that the oracle does not see.
     HazardOracle* oracle = nullptr;
     std::optional<std::uint64_t> dropBarrier;
     std::uint64_t barrierCalls = 0;
@@ -97,11 +98,12 @@ private:
     std::unordered_map<std::uint64_t, View> views_;
     std::unordered_map<std::uint64_t, Memory> memories_;
     std::unordered_map<std::uint64_t, ShaderUses> modules_, pipelines_;
+    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> vertexBindings_;  // of pipelines
     std::unordered_map<std::uint64_t, std::map<std::uint32_t, VkDescriptorType>> setLayouts_;
     std::unordered_map<std::uint64_t, Set> sets_;
     std::unordered_map<std::uint64_t, std::set<std::uint64_t>> poolSets_;
     std::unordered_map<std::uint64_t, std::uint64_t> semaphores_;  // timeline values
-    std::unordered_map<std::uint64_t, std::vector<std::unique_ptr<Commands>>> pools_;
+    std::unordered_map<std::uint64_t, std::vector<std::shared_ptr<Commands>>> pools_;
 };
 
 }  // namespace pelage::test

@@ -5,19 +5,16 @@
 
 #include <algorithm>
 #include <cstring>
+#include <optional>
 
 namespace pelage::hair {
 namespace {
 
-Diagnostic blockFault(const std::string& shader, const std::string& text, const std::string& hint) {
-    return {.code = "S030", .file = shader, .text = text, .hint = hint};
-}
-
-const materials::Value* findInput(const std::vector<materials::CompiledMaterial::InputValue>& inputs,
-                                  const std::string& name) {
-    const auto found =
-        std::find_if(inputs.begin(), inputs.end(), [&](const auto& input) { return input.name == name; });
-    return found == inputs.end() ? nullptr : &found->value;
+template <class T>
+std::optional<std::uint32_t> indexOf(const std::vector<T>& items, const std::string& name) {
+    const auto found = std::find_if(items.begin(), items.end(), [&](const T& item) { return item.name == name; });
+    if (found == items.end()) return {};
+    return static_cast<std::uint32_t>(found - items.begin());
 }
 
 // What "builtin.asset" means for a texture input: the asset's own map, or a constant when it brings none.
@@ -30,40 +27,15 @@ rhi::TextureView assetMap(const std::string& name, const GpuGeometry& geometry, 
     return {};
 }
 
-}  // namespace
-
-Outcome<std::vector<std::byte>> fillBlock(const rhi::ReflectedBinding& block,
-                                          const materials::CompiledMaterial& material, const std::string& shaderLabel) {
-    std::vector<std::byte> bytes(block.blockSize);
-    for (const rhi::BlockMember& member : block.members) {
-        const materials::Value* value = findInput(material.inputs, member.name);
-        if (value == nullptr) {
-            return tl::unexpected(blockFault(
-                shaderLabel, "the uniform block has '" + member.name + "', which no input of the material type fills",
-                "declare the input in the material type, or delete the member"));
-        }
-        std::array<float, 4> number = value->number;
-        const bool whole = value->type == materials::ValueType::Bool || value->type == materials::ValueType::Int ||
-                           value->type == materials::ValueType::Uint || value->type == materials::ValueType::Enum;
-        if (whole) number[0] = static_cast<float>(value->integer);
-        const std::size_t size = std::size_t{member.components} * 4;
-        if (member.columns != 1 || member.arrayLength != 1 || size > 16 || member.offset + size > bytes.size()) {
-            return tl::unexpected(blockFault(shaderLabel,
-                                             "member '" + member.name +
-                                                 "' of the uniform block is no scalar or "
-                                                 "vector of 4 bytes a component",
-                                             "use float, int, uint, bool or vectors of them"));
-        }
-        if (member.scalar == rhi::ScalarType::Float) {
-            std::memcpy(bytes.data() + member.offset, number.data(), size);
-        } else {
-            const auto integer =
-                static_cast<std::int32_t>(whole ? value->integer : static_cast<std::int64_t>(number[0]));
-            std::memcpy(bytes.data() + member.offset, &integer, 4);
-        }
+const rhi::ReflectedBinding* bindingAt(const rhi::ShaderModule& module, std::uint32_t binding) {
+    if (!module) return nullptr;
+    for (const rhi::ReflectedBinding& each : module.reflection().bindings) {
+        if (each.group == 2 && each.entry.binding == binding) return &each;
     }
-    return bytes;
+    return nullptr;
 }
+
+}  // namespace
 
 std::vector<rhi::ConstantEntry> declaredConstants(const rhi::ShaderModule& module,
                                                   const std::vector<rhi::ConstantEntry>& constants) {
@@ -77,75 +49,108 @@ std::vector<rhi::ConstantEntry> declaredConstants(const rhi::ShaderModule& modul
     return result;
 }
 
-Outcome<rhi::BindGroup> MaterialBindings::bindGroup(const Key& key, const rhi::BindGroupLayout& layout,
-                                                    const rhi::ShaderModule& shader,
-                                                    const materials::CompiledMaterial& material,
-                                                    const GpuGeometry& geometry, Uploads& uploads) {
-    Entry& entry = entries_[key];
-    std::vector<std::byte> bytes;
-    std::vector<rhi::TextureView> views;
-    std::vector<rhi::BindGroupEntry> entries;
+Outcome<MaterialBindings::Entry> MaterialBindings::resolve(const rhi::BindGroupLayout& layout,
+                                                           const std::shared_ptr<const materials::MaterialType>& type,
+                                                           const materials::CompiledMaterial& material,
+                                                           const Modules& modules) const {
+    Entry entry{.type = type};
     for (const rhi::BindGroupLayoutEntry& slot : layout.entries()) {
-        switch (slot.type) {
-            case rhi::BindingType::UniformBuffer: {
-                const auto& bindings = shader.reflection().bindings;
-                const auto block = std::find_if(bindings.begin(), bindings.end(), [&](const auto& b) {
-                    return b.group == 2 && b.entry.binding == slot.binding;
-                });
-                if (block == bindings.end()) break;
-                auto filled = fillBlock(*block, material, shader.label());
-                if (!filled) return tl::unexpected(filled.error());
-                bytes = std::move(*filled);
-                if (!entry.block || entry.block.size() != bytes.size()) {
-                    auto buffer =
-                        device_.createBuffer({.label = shader.label() + " material",
-                                              .size = bytes.size(),
-                                              .usage = rhi::BufferUsage::Uniform | rhi::BufferUsage::CopyDst});
-                    if (!buffer) return tl::unexpected(toDiagnostic(buffer.error()));
-                    entry = {.block = *buffer};
+        if (slot.type == rhi::BindingType::Sampler) {
+            entry.samplers.push_back(slot.binding);
+        } else if (slot.type == rhi::BindingType::UniformBuffer) {
+            std::uint32_t size = 0;
+            // Each stage declares the members it reads, at the same offsets.
+            for (const rhi::ShaderModule& module : {modules.vertex, modules.fragment}) {
+                const rhi::ReflectedBinding* block = bindingAt(module, slot.binding);
+                if (!block) continue;
+                entry.blockBinding = slot.binding;
+                entry.label = module.label() + " material";
+                size = std::max(size, block->blockSize);
+                for (const rhi::BlockMember& member : block->members) {
+                    const auto input = indexOf(material.inputs, member.name);
+                    if (!input || member.offset + member.components * 4 > block->blockSize) continue;
+                    entry.members.push_back(
+                        {member.offset, member.components * 4, *input, member.scalar == rhi::ScalarType::Float});
                 }
-                entries.push_back({slot.binding, rhi::BufferBinding{entry.block, 0, bytes.size()}});
-                break;
             }
-            case rhi::BindingType::Sampler:
-                entries.push_back({slot.binding, sampler_});
-                break;
-            default: {
-                const materials::Value* value = findInput(material.textures, slot.name);
-                if (value == nullptr) {
-                    return tl::unexpected(blockFault(
-                        shader.label(),
-                        "the shader samples '" + slot.name + "', which no texture input of the material type fills",
-                        "declare a texture2d input of this name"));
-                }
-                std::string reference = value->text.empty() ? "builtin.white" : value->text;
-                rhi::TextureView view;
-                if (reference == "builtin.asset") {
-                    reference = "builtin.white";
-                    view = assetMap(slot.name, geometry, reference);
-                }
-                if (!view) {
-                    auto loaded = uploads.texture(reference, slot.name == "colorMap");
-                    if (!loaded) return tl::unexpected(loaded.error());
-                    view = *loaded;
-                }
-                views.push_back(view);
-                entries.push_back({slot.binding, view});
-            }
+            auto buffer = device_.createBuffer(
+                {.label = entry.label, .size = size, .usage = rhi::BufferUsage::Uniform | rhi::BufferUsage::CopyDst});
+            if (!buffer) return tl::unexpected(toDiagnostic(buffer.error()));
+            entry.block = *buffer;
+        } else {
+            // Not by the layout's name: layouts are shared, and the names in one may be those of another shader.
+            const rhi::ReflectedBinding* declared = bindingAt(modules.fragment, slot.binding);
+            if (!declared) declared = bindingAt(modules.vertex, slot.binding);
+            const auto texture = declared ? indexOf(material.textures, declared->entry.name) : std::nullopt;
+            if (!texture) continue;
+            const auto input = indexOf(type->inputs(), declared->entry.name);
+            entry.textures.push_back({slot.binding, *texture, input && type->inputs()[*input].srgb});
         }
     }
-    if (entry.block && bytes != entry.bytes) {
-        auto written = device_.queue().writeBuffer(entry.block, 0, bytes);
+    return entry;
+}
+
+void MaterialBindings::fillBlock(const Entry& entry, const materials::CompiledMaterial& material) {
+    bytes_.assign(entry.block ? entry.block.size() : 0, std::byte{0});
+    for (const Member& member : entry.members) {
+        const materials::Value& value = material.inputs[member.input].value;
+        if (member.isFloat) {
+            std::memcpy(bytes_.data() + member.offset, value.number.data(), member.size);
+        } else {
+            const auto integer = static_cast<std::uint32_t>(value.integer);  // the same bits for an int
+            std::memcpy(bytes_.data() + member.offset, &integer, 4);
+        }
+    }
+}
+
+Outcome<void> MaterialBindings::findViews(const Entry& entry, const materials::CompiledMaterial& material,
+                                          const GpuGeometry& geometry, Uploads& uploads) {
+    views_.clear();
+    for (const TextureSlot& slot : entry.textures) {
+        const auto& texture = material.textures[slot.texture];
+        std::string reference = texture.value.text.empty() ? "builtin.white" : texture.value.text;
+        rhi::TextureView view;
+        if (reference == "builtin.asset") {
+            reference = "builtin.white";
+            view = assetMap(texture.name, geometry, reference);
+        }
+        if (!view) {
+            auto loaded = uploads.texture(reference, slot.srgb);
+            if (!loaded) return tl::unexpected(loaded.error());
+            view = *loaded;
+        }
+        views_.push_back(std::move(view));
+    }
+    return {};
+}
+
+Outcome<rhi::BindGroup> MaterialBindings::bindGroup(const Key& key, const rhi::BindGroupLayout& layout,
+                                                    const std::shared_ptr<const materials::MaterialType>& type,
+                                                    const materials::CompiledMaterial& material,
+                                                    const GpuGeometry& geometry, Uploads& uploads,
+                                                    const std::function<Modules()>& modules) {
+    Entry& entry = entries_[key];
+    if (entry.type != type) {
+        auto resolved = resolve(layout, type, material, modules());
+        if (!resolved) return tl::unexpected(resolved.error());
+        entry = std::move(*resolved);
+    }
+    fillBlock(entry, material);
+    if (entry.block && bytes_ != entry.bytes) {
+        auto written = device_.queue().writeBuffer(entry.block, 0, bytes_);
         if (!written) return tl::unexpected(toDiagnostic(written.error()));
-        entry.bytes = std::move(bytes);
+        entry.bytes = bytes_;
     }
-    if (!entry.group || views != entry.views) {
-        auto group =
-            device_.createBindGroup({.label = shader.label() + " material", .layout = layout, .entries = entries});
-        if (!group) return tl::unexpected(toDiagnostic(group.error()));
-        entry.group = *group;
-        entry.views = std::move(views);
-    }
+    if (auto found = findViews(entry, material, geometry, uploads); !found) return tl::unexpected(found.error());
+    if (entry.group && views_ == entry.views) return entry.group;
+    std::vector<rhi::BindGroupEntry> bound;
+    if (entry.block) bound.push_back({entry.blockBinding, rhi::BufferBinding{entry.block, 0, entry.block.size()}});
+    for (const std::uint32_t binding : entry.samplers) bound.push_back({binding, sampler_});
+    for (std::size_t i = 0; i < views_.size(); ++i) bound.push_back({entry.textures[i].binding, views_[i]});
+    auto group = device_.createBindGroup({.label = entry.label, .layout = layout, .entries = bound});
+    if (!group) return tl::unexpected(toDiagnostic(group.error()));
+    entry.group = *group;
+    entry.views = views_;
     return entry.group;
 }
 

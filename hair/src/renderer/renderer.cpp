@@ -34,7 +34,9 @@ std::vector<std::string> Renderer::shaderNames() {
 
 rhi::Result<rhi::ShaderModule> Renderer::State::module(const std::string& file) {
     if (const auto found = modules.find(file); found != modules.end()) return found->second;
-    const auto code = detail::embeddedShader(file);
+    std::span<const std::uint32_t> code;
+    if (hostShaders) code = hostShaders(file);
+    if (code.empty()) code = detail::embeddedShader(file);
     if (code.empty()) {
         std::string known;
         for (const std::string_view name : detail::embeddedShaderNames())
@@ -63,7 +65,7 @@ Outcome<Renderer> Renderer::create(Descriptor descriptor) {
                                                     .mipmapFilter = rhi::FilterMode::Linear});
     if (!sampler) return tl::unexpected(toDiagnostic(sampler.error()));
     Renderer renderer;
-    renderer.state_ = std::make_shared<State>(descriptor.device, *sampler);
+    renderer.state_ = std::make_shared<State>(descriptor, *sampler);
     State& state = *renderer.state_;
     state.tree = descriptor.tree;
     State* raw = renderer.state_.get();
@@ -82,8 +84,10 @@ Outcome<void> Renderer::setTree(std::shared_ptr<const passes::PassTree> tree) {
     if (state.built) {
         auto built = state.graph.build(*tree, state.host);
         if (!built) return tl::unexpected(built.error().items().front());
+        ++state.graphBuilds;
     }
     state.tree = std::move(tree);
+    state.checkedTypes.clear();
     return {};
 }
 
@@ -190,9 +194,15 @@ Outcome<Picture> Renderer::render(Scene& scene, const FrameSettings& settings) {
     return picture;
 }
 
+void Renderer::waitForPipelines() {
+    state_->pipelines.wait();
+}
+
 FrameReport Renderer::report() const {
     const State& state = *state_;
     FrameReport report = state.frame;
+    report.pipelinesPending = state.pipelines.pending();
+    report.pipelinesMade = state.pipelines.made();
     report.passes = state.graph.reports();
     report.gpuMilliseconds = state.graph.frameMilliseconds();
     for (const passes::PlanResource& resource : state.graph.plan().resources) {

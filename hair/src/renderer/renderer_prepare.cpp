@@ -45,7 +45,7 @@ Outcome<void> Renderer::State::buildGraph(const Scene& scene, const FrameSetting
     if (!result) return tl::unexpected(result.error().items().front());
     host = std::move(wanted);
     built = true;
-    for (ObjectState& object : objects) object.pipelines.clear();
+    ++graphBuilds;
     return {};
 }
 
@@ -74,6 +74,7 @@ Outcome<void> Renderer::State::prepareObjects(Scene& scene, const FrameViews& fr
         if (!geometry) return tl::unexpected(geometry.error());
         state.geometry = *geometry;
         state.material = &object.material.compile();
+        if (auto updated = updateLook(state, object); !updated) return updated;
         if (!state.block) {
             auto buffer = device.createBuffer({.label = object.name + " object",
                                                .size = sizeof(ObjectBlock),
@@ -102,8 +103,9 @@ Outcome<void> Renderer::State::prepareObjects(Scene& scene, const FrameViews& fr
         if (!written) return tl::unexpected(toDiagnostic(written.error()));
         // Alpha blending needs an order.
         const bool blends =
-            std::any_of(state.material->shaders.begin(), state.material->shaders.end(),
-                        [](const auto& s) { return s.enabled && s.state.blend == materials::Blend::Premultiplied; });
+            state.shown && std::any_of(state.shown->shaders.begin(), state.shown->shaders.end(), [](const auto& s) {
+                return s.enabled && s.state.blend == materials::Blend::Premultiplied;
+            });
         if (!blends) {
             state.sortedIndices = {};
             continue;

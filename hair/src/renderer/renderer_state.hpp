@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: MIT
 // What a Renderer keeps between frames. Its work is split by topic: renderer_prepare.cpp (graph, views, objects),
-// renderer_draw.cpp (pipelines, bind groups, draws), renderer.cpp (the frame and its readback).
+// renderer_looks.cpp (materials to pipelines), renderer_draw.cpp (bind groups, draws), renderer.cpp (the frame and its
+// readback).
 #pragma once
 
 #include "material_binding.hpp"
+#include "pipelines.hpp"
 #include "uploads.hpp"
 #include "views.hpp"
 
 #include <pelage/hair/renderer.hpp>
+
+#include <optional>
 
 namespace pelage::hair {
 
@@ -16,12 +20,32 @@ struct ObjectBlock {
     glm::vec4 lineWidth = {};
 };
 
+// An object as far as pipelines go: the shaders of its material as they were, and a pipeline for each pass that draws
+// one of them. It is drawn when all of them are ready, never by half.
+struct Look {
+    std::shared_ptr<const materials::MaterialType> type = {};
+    bool strands = false, isEmpty = false;
+    bool shadowsOff = false, environmentOff = false;
+    std::vector<materials::CompiledMaterial::Shader> shaders = {};
+    std::uint64_t graph = 0;  // the build of the graph that `draws` is for
+    struct Draw {
+        std::string pass = {};
+        std::uint32_t shader = 0;
+        Pipelines::Handle pipeline = {};
+    };
+    std::vector<Draw> draws = {};
+    bool failureSaid = false;
+
+    bool isReady() const;
+    const rhi::Error* failure() const;
+};
+
 // What an object keeps from frame to frame; found by its index in the scene.
 struct ObjectState {
     rhi::Buffer block = {};
     std::map<const void*, rhi::BindGroup> groups = {};  // by layout
     rhi::Buffer sortedIndices = {};
-    std::map<std::string, rhi::RenderPipeline> pipelines = {};
+    std::optional<Look> shown = {}, next = {};  // `next` waits for its pipelines
     float lineWidthMain = 1, lineWidthShadow = 1;
     const GpuGeometry* geometry = nullptr;
     const materials::CompiledMaterial* material = nullptr;
@@ -38,25 +62,46 @@ struct Renderer::State {
     passes::Graph graph;
     Uploads uploads;
     MaterialBindings bindings;
+    ShaderCode hostShaders;
     std::map<std::string, rhi::ShaderModule> modules;
+    PipelineMode mode = PipelineMode::Synchronous;
+    Pipelines pipelines;
     std::vector<ObjectState> objects;
     std::vector<ViewState> views;  // 0: main, then shadow layers
     rhi::Buffer displayBlock;
     passes::HostDescription host;  // of the built graph
     bool built = false;
+    std::uint64_t graphBuilds = 0;
+    // Types that were checked against the tree and their shaders; held, so that none of another type has its address.
+    std::vector<std::shared_ptr<const materials::MaterialType>> checkedTypes;
     FrameReport frame;
     // What the scene does not require is switched off for this frame whatever the material says.
     bool shadowsOff = false, environmentOff = false;
 
-    explicit State(rhi::Device d, rhi::Sampler sampler) : device(d), uploads(d), bindings(d, sampler) {}
+    State(const Descriptor& descriptor, rhi::Sampler sampler)
+        : device(descriptor.device),
+          uploads(device),
+          bindings(device, sampler),
+          hostShaders(descriptor.shaders),
+          mode(descriptor.pipelines),
+          pipelines(device, mode, descriptor.beforePipeline) {}
 
     rhi::Result<rhi::ShaderModule> module(const std::string& file);
     Outcome<void> buildGraph(const Scene& scene, const FrameSettings& settings, std::uint32_t& shadowSize,
                              std::uint32_t& shadowLights);
     Outcome<void> prepareObjects(Scene& scene, const FrameViews& frameViews);
     Outcome<void> writeView(std::size_t index, const FrameBlock& block);
-    rhi::Result<rhi::RenderPipeline> pipeline(ObjectState& object, const materials::CompiledMaterial::Shader& shader,
-                                              const passes::Targets& targets);
+    // renderer_looks.cpp
+    Outcome<void> updateLook(ObjectState& object, const Object& from);
+    Outcome<void> checkType(const std::shared_ptr<const materials::MaterialType>& type);
+    bool looksLike(const Look& look, const ObjectState& object, const materials::CompiledMaterial& material) const;
+    rhi::Result<void> requestPipelines(Look& look, const std::string& label);
+    rhi::Result<rhi::RenderPipelineDescriptor> describePipeline(const Look& look,
+                                                                const materials::CompiledMaterial::Shader& shader,
+                                                                const passes::Targets& targets);
+    // renderer_draw.cpp
+    Outcome<rhi::BindGroup> materialGroup(std::size_t index, const Look& look, std::uint32_t shader,
+                                          const rhi::BindGroupLayout& layout);
     rhi::Result<rhi::BindGroup> groupFor(std::map<const void*, rhi::BindGroup>& cache,
                                          const rhi::BindGroupLayout& layout, const rhi::Buffer& buffer,
                                          std::uint64_t size, const char* label);

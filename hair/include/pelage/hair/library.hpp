@@ -14,11 +14,18 @@ namespace pelage::hair {
 class Library {
 public:
     explicit Library(std::string dataDirectory);
+    /// With functors of the host's own beside those of hair: `functors` is functorRegistry() and what was added to it.
+    Library(std::string dataDirectory, materials::FunctorRegistry functors);
 
     /// "hair.materialtype.json", or a path. Types are read once.
     Checked<std::shared_ptr<const materials::MaterialType>> materialType(const std::string& name);
-    /// A preset's name ("brown"), or a path to a *.material.json; a type beside the file is found first.
+    /// A preset's name ("brown"), or a path to a *.material.json; a type beside the file is found first. Parents are
+    /// looked for beside the file that names them, then among the presets.
     Checked<materials::Material::Parsed> material(const std::string& nameOrPath);
+    /// How material() finds types and parents, for others that read material files. Valid while the library is.
+    materials::Material::TypeSource typesFor(const std::string& materialFile);
+    materials::Material::ParentSource parentSource() const;
+    const materials::FunctorRegistry& functors() const { return functors_; }
     /// "hair_frame" or a path to a *.pass.json.
     Checked<std::shared_ptr<const passes::PassTree>> passTree(const std::string& nameOrPath);
     std::vector<std::string> presetNames() const;

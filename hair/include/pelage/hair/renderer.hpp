@@ -1,15 +1,19 @@
 // SPDX-License-Identifier: MIT
-// Renders a Scene with a pass tree on an rhi::Device. Uploads are cached by geometry; pipelines by material and pass.
+// Renders a Scene with a pass tree on an rhi::Device. Uploads are cached by geometry; pipelines by what they are made
+// of.
 #pragma once
 
 #include <pelage/hair/scene.hpp>
 #include <pelage/passes/graph.hpp>
 #include <pelage/rhi/rhi.hpp>
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pelage::hair {
@@ -39,6 +43,13 @@ struct AttachmentReport {
     std::uint64_t bytes = 0;
 };
 
+/// When pipelines are made. Synchronous: before the frame that needs them is recorded, so that every picture is whole.
+/// Background: on one thread of the renderer's own; until all pipelines of a changed material are there, the object is
+/// drawn in the same passes and with the same pipelines as before (its numbers are new at once), and at first not at
+/// all. A pipeline that cannot be made is an error of the frame, or, where something is shown already, a note of it;
+/// the device's error callback hears of it on the thread that tried.
+enum class PipelineMode : std::uint8_t { Synchronous, Background };
+
 struct FrameReport {
     std::vector<passes::PassReport> passes = {};
     double gpuMilliseconds = 0;
@@ -46,6 +57,11 @@ struct FrameReport {
     std::vector<std::string> culled = {};
     std::uint32_t draws = 0, barriers = 0;
     std::uint64_t triangles = 0, segments = 0;  // submitted, all passes
+    std::uint32_t pipelinesPending = 0;         // of materials, still being made
+    std::uint32_t pipelinesMade = 0;            // of materials, since the renderer was made
+    /// What is worth knowing of material types, said in the frame that uses one first (M017, S020, S031), and pipelines
+    /// that could not be made in the background.
+    Diagnostics notes = {};
 };
 
 /// A finished frame on the CPU, rows from the top.
@@ -56,12 +72,22 @@ struct Picture {
     FrameReport report = {};
 };
 
+/// SPIR-V by the name a material type or pass tree gives a shader; empty when there is none. The words must stay where
+/// they are while the renderer lives. The `embeddedShader` that pelage_shaders() generates is one.
+using ShaderCode = std::function<std::span<const std::uint32_t>(std::string_view file)>;
+
 class Renderer {
 public:
     struct Descriptor {
         rhi::Device device = {};
         std::shared_ptr<const passes::PassTree> tree = {};
         bool measure = true;
+        PipelineMode pipelines = PipelineMode::Synchronous;
+        /// Shaders of the host's own; asked before the built-in ones, which may so be replaced. hair/shaders/*.glsl has
+        /// the declarations of the sets that the renderer binds.
+        ShaderCode shaders = {};
+        /// Called with a pipeline's key before it is made, on the thread that makes it: for progress and for tests.
+        std::function<void(std::uint64_t key)> beforePipeline = {};
     };
     static Outcome<Renderer> create(Descriptor descriptor);
 
@@ -76,6 +102,8 @@ public:
 
     /// encode(), submit, wait and read back.
     Outcome<Picture> render(Scene& scene, const FrameSettings& settings);
+    /// Until no pipeline is pending; the next frame draws with all of them. At once in synchronous mode.
+    void waitForPipelines();
     /// Of the last frame, once its work is done.
     FrameReport report() const;
     const passes::Plan& plan() const;

@@ -61,5 +61,7 @@ using Checked = tl::expected<T, Diagnostics>;
 /// The name among `known` that a person most likely meant by `word` (small edit distance, case differences are free),
 /// or an empty view.
 std::string_view nearestName(std::string_view word, const std::vector<std::string>& known);
+/// "did you mean 'x'?", or the list of what is known when that is short, or nothing.
+std::string nameHint(std::string_view word, const std::vector<std::string>& known);
 
 }  // namespace pelage

@@ -68,6 +68,8 @@ public:
     const std::vector<ShaderUse>& shaders() const;
     const std::vector<std::string>& presets() const;
     const Property* find(std::string_view id) const;
+    /// M017, a warning, for each shader whose draw list is not among `known`, those of a pass tree: nothing draws it.
+    Diagnostics unknownDrawLists(const std::vector<std::string>& known) const;
     /// Warnings found while reading (errors do not give a type).
     const Diagnostics& warnings() const;
 
@@ -106,9 +108,17 @@ public:
 
     /// Finds material types by the name a material file gives, for example "hair.materialtype.json".
     using TypeSource = std::function<Checked<std::shared_ptr<const MaterialType>>(const std::string& name)>;
+    /// The path of a parent, from the name in "parent" and the path of the file that says so. Without one, parents are
+    /// looked for beside that file.
+    using ParentSource = std::function<std::string(const std::string& name, const std::string& file)>;
     struct Parsed;
-    static Checked<Parsed> parse(std::string_view text, const std::string& file, const TypeSource& types);
-    static Checked<Parsed> load(const std::string& path, const TypeSource& types);
+    /// Reads a material and its parents: the values of the nearest file win. A parent that is missing, of another type,
+    /// or its own ancestor is V012, at each place concerned.
+    static Checked<Parsed> parse(std::string_view text, const std::string& file, const TypeSource& types,
+                                 const ParentSource& parents = {});
+    static Checked<Parsed> load(const std::string& path, const TypeSource& types, const ParentSource& parents = {});
+    /// The files it was read from: its own, its parent, the parent's parent. Empty for a material made by a program.
+    const std::vector<std::string>& files() const { return files_; }
 
     const MaterialType& type() const { return *type_; }
     const std::shared_ptr<const MaterialType>& sharedType() const { return type_; }
@@ -129,11 +139,13 @@ public:
     const CompiledMaterial& compile();
 
 private:
+    friend struct MaterialReader;
     std::optional<Diagnostic> assign(std::string_view id, const std::function<Conversion(const Property&)>& from);
 
     std::shared_ptr<const MaterialType> type_;
     std::vector<Value> values_;  // by property index
     std::vector<bool> dirty_;
+    std::vector<std::string> files_;
     CompiledMaterial compiled_;
     bool first_ = true;
 };

@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: MIT
-#include "condition.hpp"
-#include "support.hpp"
+#include <pelage/json/condition.hpp>
+
+#include <gtest/gtest.h>
+
+#include <utility>
 
 using namespace pelage;
-using namespace pelage::materials;
+using json::Condition;
+using json::ConditionNames;
 
 namespace {
 
-Property make(std::string id, ValueType type, std::vector<std::string> words = {}) {
-    Property property;
-    property.id = std::move(id);
-    property.type = type;
-    property.words = std::move(words);
-    return property;
-}
+const ConditionNames names{.names = {{"a.on", ConditionNames::Type::Bool},
+                                     {"a.count", ConditionNames::Type::Number},
+                                     {"a.size", ConditionNames::Type::Number, {}, true},
+                                     {"a.mode", ConditionNames::Type::Word, {"off", "soft", "hard"}},
+                                     {"a.color", ConditionNames::Type::Other}},
+                           .function = {"host.has", "import", {"Sky", "Depth"}}};
 
-const std::vector<Property> properties{
-    make("a.on", ValueType::Bool), make("a.count", ValueType::Int), make("a.size", ValueType::Float),
-    make("a.mode", ValueType::Enum, {"off", "soft", "hard"}), make("a.color", ValueType::Color)};
-const std::vector<Value> values{Value::boolean(true),
-                                Value::int32(3),
-                                Value::scalar(0.1F),
-                                {ValueType::Enum, {}, 1, "soft"},
-                                Value::color(1, 1, 1)};
+// On, 3, a float of 0.1, soft; the host has no Sky but has Depth.
+double value(std::size_t index) {
+    const double all[] = {1, 3, static_cast<double>(0.1F), 1, -1, 0, 1};
+    return all[index];
+}
 
 }  // namespace
 
@@ -46,11 +46,16 @@ TEST(Condition, EvaluatesWithTheUsualPrecedence) {
                                                       {"a.on || a.on && !a.on", true},
                                                       {"(a.on || a.on) && !a.on", false},
                                                       {"true", true},
+                                                      {"a.size in [0.5, 0.1]", true},
+                                                      {"a.count == 3.0000001", false},
+                                                      {"host.has('Depth')", true},
+                                                      {"!host.has('Sky') && host.has('Depth') == a.on", true},
+                                                      {"host.has('Sky') || a.mode == 'hard'", false},
                                                       {"false || a.count == 3", true}};
     for (const auto& [text, expected] : rows) {
-        const auto condition = Condition::parse(text, properties);
+        const auto condition = Condition::parse(text, names);
         ASSERT_TRUE(condition) << text << ": " << toString(condition.error());
-        EXPECT_EQ(condition->evaluate(values), expected) << text;
+        EXPECT_EQ(condition->evaluate(value), expected) << text;
     }
 }
 
@@ -73,6 +78,11 @@ TEST(Condition, FaultsHaveCodeAndColumn) {
         {"a.count + 1 == 2", "E001", 9, ""},
         {"a.onn", "E002", 1, "did you mean 'a.on'?"},
         {"!a.cuont", "E002", 2, "did you mean 'a.count'?"},
+        {"host.hass('Sky')", "E002", 1, "did you mean 'host.has'?"},
+        {"host.has('Sly')", "E002", 10, "did you mean 'Sky'?"},
+        {"host.has(Sky)", "E001", 10, ""},
+        {"host.has('Sky'", "E001", 15, ""},
+        {"host.has", "E001", 9, ""},
         {"a.mode == 'sotf'", "E003", 11, "did you mean 'soft'?"},
         {"a.mode in ['off', 'x']", "E003", 19, "known: hard, off, soft"},
         {"a.mode", "E004", 1, "compare it: == 'word'"},
@@ -88,7 +98,7 @@ TEST(Condition, FaultsHaveCodeAndColumn) {
         {"!a.count", "E004", 2, ""},
     };
     for (const Row& row : rows) {
-        const auto condition = Condition::parse(row.text, properties);
+        const auto condition = Condition::parse(row.text, names);
         ASSERT_FALSE(condition) << row.text;
         EXPECT_EQ(condition.error().code, row.code) << row.text << ": " << condition.error().text;
         EXPECT_EQ(condition.error().column, row.column) << row.text << ": " << condition.error().text;
@@ -96,12 +106,26 @@ TEST(Condition, FaultsHaveCodeAndColumn) {
     }
 }
 
+TEST(Condition, SaysWhatItReads) {
+    const auto condition = Condition::parse("a.count > 1 && (a.mode == 'off' || host.has('Depth')) && true", names);
+    ASSERT_TRUE(condition);
+    EXPECT_EQ(condition->reads(), (std::vector<std::size_t>{1, 3, 6}));
+    EXPECT_TRUE(Condition().evaluate(value)) << "never parsed";
+    EXPECT_TRUE(Condition().reads().empty());
+}
+
+TEST(Condition, WithoutAFunctionNothingCanBeCalled) {
+    const auto condition = Condition::parse("host.has('Sky')", {.names = names.names});
+    ASSERT_FALSE(condition);
+    EXPECT_EQ(condition.error().code, "E002");
+}
+
 TEST(Condition, HostileTextsEnd) {
-    EXPECT_FALSE(Condition::parse(std::string(1000, '('), properties));
-    EXPECT_FALSE(Condition::parse(std::string(1000, '!') + "a.on", properties));
-    EXPECT_FALSE(Condition::parse(std::string(100000, ' '), properties));
-    EXPECT_FALSE(Condition::parse("a.count == 1e999", properties));
+    EXPECT_FALSE(Condition::parse(std::string(1000, '('), names));
+    EXPECT_FALSE(Condition::parse(std::string(1000, '!') + "a.on", names));
+    EXPECT_FALSE(Condition::parse(std::string(100000, ' '), names));
+    EXPECT_FALSE(Condition::parse("a.count == 1e999", names));
     std::string chain = "a.on";
     while (chain.size() < 1000) chain += "||a.on";
-    EXPECT_TRUE(Condition::parse(chain, properties));
+    EXPECT_TRUE(Condition::parse(chain, names));
 }

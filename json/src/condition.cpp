@@ -1,25 +1,21 @@
 // SPDX-License-Identifier: MIT
-#include "condition.hpp"
-
-#include "convert.hpp"
+#include <pelage/json/condition.hpp>
 
 #include <algorithm>
 #include <charconv>
+#include <optional>
+#include <utility>
 
-namespace pelage::materials {
+namespace pelage::json {
 namespace {
 
-using Operation = Condition::Operation;
+using Type = ConditionNames::Type;
 
-enum class Type { Bool, Number, Word };
+constexpr std::size_t longest = 1024;  // bytes
+constexpr int deepest = 32;            // brackets and negations; keeps the parser's own stack small
 
 std::string_view name(Type type) {
     return type == Type::Bool ? "true or false" : type == Type::Number ? "a number" : "a word";
-}
-
-// Properties are single precision: 0.1 in a condition must equal 0.1 in a file.
-double rounded(double number) {
-    return static_cast<double>(static_cast<float>(number));
 }
 
 struct Token {
@@ -80,15 +76,17 @@ struct Term {
     std::size_t node = 0;
     Type type = Type::Bool;
     std::size_t at = 0;
-    const Property* property = nullptr;  // a bare enum property: gives words their meaning
-    std::string_view word = {};          // a bare word, still without a number
+    const ConditionNames::Name* read = nullptr;  // a bare name: gives words their meaning and numbers their precision
+    std::string_view word = {};                  // a bare word, still without a number
 };
 
+}  // namespace
+
 // Recursive descent; the first fault ends it, and depth is bounded.
-class Parser {
+class ConditionParser {
 public:
-    Parser(std::string_view text, const std::vector<Property>& properties, std::vector<Condition::Node>& nodes)
-        : lexer_(text), properties_(properties), nodes_(nodes) {}
+    ConditionParser(std::string_view text, const ConditionNames& names, std::vector<Condition::Node>& nodes)
+        : lexer_(text), names_(names), nodes_(nodes) {}
 
     std::optional<Diagnostic> run() {
         const std::optional<Term> whole = either();
@@ -99,6 +97,8 @@ public:
     }
 
 private:
+    using Operation = Condition::Operation;
+
     const Token& token() const { return lexer_.token(); }
     std::string found() const {
         return token().kind == Token::Kind::End ? "the end" : "'" + std::string(token().text) + "'";
@@ -118,7 +118,7 @@ private:
     bool needs(const Term& term, Type type) {
         if (term.type == type) return true;
         fail("E004", term.at, "needs " + std::string(name(type)) + " here, found " + std::string(name(term.type)),
-             term.property && term.type == Type::Word ? "compare it: == 'word'" : "");
+             term.read && term.type == Type::Word ? "compare it: == 'word'" : "");
         return false;
     }
     std::size_t add(Condition::Node node) {
@@ -126,10 +126,11 @@ private:
         return nodes_.size() - 1;
     }
 
-    std::optional<Term> either() { return chain("||", Operation::Or, &Parser::both); }
-    std::optional<Term> both() { return chain("&&", Operation::And, &Parser::comparison); }
+    std::optional<Term> either() { return chain("||", Operation::Or, &ConditionParser::both); }
+    std::optional<Term> both() { return chain("&&", Operation::And, &ConditionParser::comparison); }
 
-    std::optional<Term> chain(std::string_view symbol, Operation operation, std::optional<Term> (Parser::*part)()) {
+    std::optional<Term> chain(std::string_view symbol, Operation operation,
+                              std::optional<Term> (ConditionParser::*part)()) {
         std::optional<Term> left = (this->*part)();
         while (left && at(symbol)) {
             lexer_.advance();
@@ -167,14 +168,17 @@ private:
         if (left.type != Type::Number && operation != Operation::Equal && operation != Operation::NotEqual)
             return fail("E004", left.at, "only numbers have an order", "use == or !=");
         if (left.type == Type::Word) {
-            const Property* property = left.property ? left.property : right.property;
-            if (!property || (left.property && right.property))
-                return fail("E004", left.at, "compare one property with one word");
-            const Term& literal = left.property ? right : left;
-            const std::optional<double> index = wordIndex(*property, literal);
+            if ((left.read == nullptr) == (right.read == nullptr))
+                return fail("E004", left.at, "compare one " + names_.kind + " with one word");
+            const Term& literal = left.read ? right : left;
+            const std::optional<double> index = wordIndex(left.read ? *left.read : *right.read, literal);
             if (!index) return {};
             nodes_[literal.node].number = *index;
-            nodes_[literal.node].operation = Operation::Literal;
+        } else if ((left.read && left.read->isSingle) || (right.read && right.read->isSingle)) {
+            for (const Term* term : {&left, &right}) {
+                double& number = nodes_[term->node].number;
+                number = static_cast<double>(static_cast<float>(number));
+            }
         }
         Condition::Node node;
         node.operation = operation;
@@ -183,19 +187,20 @@ private:
         return Term{add(std::move(node)), Type::Bool, left.at, nullptr, {}};
     }
 
-    std::optional<double> wordIndex(const Property& property, const Term& literal) {
-        const auto found = std::find(property.words.begin(), property.words.end(), literal.word);
-        if (found != property.words.end()) return static_cast<double>(found - property.words.begin());
-        fail("E003", literal.at, "'" + std::string(literal.word) + "' is not a value of '" + property.id + "'",
-             nameHint(literal.word, property.words));
+    std::optional<double> wordIndex(const ConditionNames::Name& of, const Term& literal) {
+        const auto found = std::find(of.words.begin(), of.words.end(), literal.word);
+        if (found != of.words.end()) return static_cast<double>(found - of.words.begin());
+        fail("E003", literal.at, "'" + std::string(literal.word) + "' is not a value of '" + of.name + "'",
+             nameHint(literal.word, of.words));
         return {};
     }
 
     std::optional<Term> membership(const Term& left) {
         lexer_.advance();
-        if (left.type == Type::Bool) return fail("E004", left.at, "'in' needs a property with words or numbers");
-        if (left.type == Type::Word && !left.property)
-            return fail("E004", left.at, "'in' needs a property on its left");
+        if (left.type == Type::Bool)
+            return fail("E004", left.at, "'in' needs a " + names_.kind + " with words or numbers");
+        if (left.type == Type::Word && !left.read)
+            return fail("E004", left.at, "'in' needs a " + names_.kind + " on its left");
         if (!take("[")) return fail("E001", token().at, "expected '[' after in, found " + found());
         Condition::Node node;
         node.operation = Operation::In;
@@ -208,11 +213,12 @@ private:
                 return fail("E004", element.at, "the list holds another kind than what is compared");
             if (element.kind == Token::Kind::Word) {
                 const std::optional<double> index =
-                    wordIndex(*left.property, {0, Type::Word, element.at, nullptr, element.text});
+                    wordIndex(*left.read, {0, Type::Word, element.at, nullptr, element.text});
                 if (!index) return {};
                 node.set.push_back(*index);
             } else {
-                node.set.push_back(rounded(element.number));
+                const bool isSingle = left.read && left.read->isSingle;
+                node.set.push_back(isSingle ? static_cast<double>(static_cast<float>(element.number)) : element.number);
             }
             lexer_.advance();
         } while (take(","));
@@ -221,7 +227,7 @@ private:
     }
 
     std::optional<Term> unary() {
-        if (depth_ >= 32) return fail("E001", token().at, "nested too deeply");
+        if (depth_ >= deepest) return fail("E001", token().at, "nested too deeply");
         ++depth_;
         std::optional<Term> result = take("!") ? negation() : primary();
         --depth_;
@@ -248,78 +254,93 @@ private:
         Condition::Node node;
         Term term{0, Type::Number, here.at, nullptr, {}};
         if (here.kind == Token::Kind::Number) {
-            node.number = rounded(here.number);
+            node.number = here.number;
         } else if (here.kind == Token::Kind::Word) {
-            node.operation = Operation::Word;
             term.type = Type::Word;
             term.word = here.text;
         } else if (here.kind == Token::Kind::Name && (here.text == "true" || here.text == "false")) {
             node.number = here.text == "true" ? 1 : 0;
             term.type = Type::Bool;
+        } else if (here.kind == Token::Kind::Name && here.text == names_.function.name) {
+            return call(here);
         } else if (here.kind == Token::Kind::Name) {
-            const auto property = std::find_if(properties_.begin(), properties_.end(),
-                                               [&](const Property& candidate) { return candidate.id == here.text; });
-            if (property == properties_.end()) {
-                std::vector<std::string> known;
-                for (const Property& candidate : properties_) known.push_back(candidate.id);
-                return fail("E002", here.at, "unknown property '" + std::string(here.text) + "'",
-                            nameHint(here.text, known));
-            }
-            const bool isNumber = componentCount(property->type) == 1;
-            if (!isNumber && property->type != ValueType::Bool && property->type != ValueType::Enum)
-                return fail("E004", here.at,
-                            "'" + property->id + "' is " + std::string(materials::name(property->type)),
+            const auto found = std::find_if(names_.names.begin(), names_.names.end(),
+                                            [&](const auto& candidate) { return candidate.name == here.text; });
+            if (found == names_.names.end()) return unknown(here);
+            if (found->type == Type::Other)
+                return fail("E004", here.at, "'" + found->name + "' cannot be compared",
                             "only bool, enum and single numbers can be compared");
             node.operation = Operation::Read;
-            node.property = static_cast<std::size_t>(property - properties_.begin());
-            term.type = isNumber ? Type::Number : property->type == ValueType::Bool ? Type::Bool : Type::Word;
-            if (term.type == Type::Word) term.property = &*property;
+            node.name = static_cast<std::size_t>(found - names_.names.begin());
+            term.type = found->type;
+            term.read = &*found;
         } else {
-            return fail("E001", here.at, "expected a property, a number or a word in quotes, found " + found());
+            return fail("E001", here.at,
+                        "expected a " + names_.kind + ", a number or a word in quotes, found " + found());
         }
         lexer_.advance();
         term.node = add(std::move(node));
         return term;
     }
 
+    std::optional<Term> unknown(const Token& here) {
+        std::vector<std::string> known;
+        for (const ConditionNames::Name& each : names_.names) known.push_back(each.name);
+        if (!names_.function.name.empty()) known.push_back(names_.function.name);
+        return fail("E002", here.at, "unknown " + names_.kind + " '" + std::string(here.text) + "'",
+                    nameHint(here.text, known));
+    }
+
+    std::optional<Term> call(const Token& here) {
+        const ConditionNames::Function& function = names_.function;
+        lexer_.advance();
+        if (!take("(")) return fail("E001", token().at, "expected '(', found " + found());
+        const Token argument = token();
+        if (argument.kind != Token::Kind::Word)
+            return fail("E001", argument.at, "expected an " + function.kind + " in single quotes, found " + found());
+        const auto known = std::find(function.words.begin(), function.words.end(), argument.text);
+        if (known == function.words.end())
+            return fail("E002", argument.at, "unknown " + function.kind + " '" + std::string(argument.text) + "'",
+                        nameHint(argument.text, function.words));
+        lexer_.advance();
+        if (!take(")")) return fail("E001", token().at, "expected ')', found " + found());
+        Condition::Node node;
+        node.operation = Operation::Read;
+        node.name = names_.names.size() + static_cast<std::size_t>(known - function.words.begin());
+        return Term{add(std::move(node)), Type::Bool, here.at, nullptr, {}};
+    }
+
     Lexer lexer_;
-    const std::vector<Property>& properties_;
+    const ConditionNames& names_;
     std::vector<Condition::Node>& nodes_;
     std::optional<Diagnostic> fault_ = {};
     int depth_ = 0;
 };
 
-double numberOf(const Value& value) {
-    return value.type == ValueType::Float ? static_cast<double>(value.number[0]) : static_cast<double>(value.integer);
-}
-
-}  // namespace
-
-Outcome<Condition> Condition::parse(std::string_view text, const std::vector<Property>& properties) {
+Outcome<Condition> Condition::parse(std::string_view text, const ConditionNames& names) {
     Condition condition;
-    if (text.size() > 1024) {
+    if (text.size() > longest) {
         return tl::unexpected<Diagnostic>(
-            Diagnostic{Severity::Error, "E001", {}, 1, 1, "the condition is longer than 1024 bytes", {}});
+            Diagnostic{.code = "E001", .line = 1, .column = 1, .text = "the condition is longer than 1024 bytes"});
     }
-    if (std::optional<Diagnostic> fault = Parser(text, properties, condition.nodes_).run())
+    if (std::optional<Diagnostic> fault = ConditionParser(text, names, condition.nodes_).run())
         return tl::unexpected<Diagnostic>(std::move(*fault));
     return condition;
 }
 
-bool Condition::evaluate(const std::vector<Value>& values) const {
-    return nodes_.empty() || evaluate(nodes_.size() - 1, values) != 0;
+bool Condition::evaluate(const std::function<double(std::size_t)>& value) const {
+    return nodes_.empty() || evaluate(nodes_.size() - 1, value) != 0;
 }
 
-double Condition::evaluate(std::size_t index, const std::vector<Value>& values) const {
+double Condition::evaluate(std::size_t index, const std::function<double(std::size_t)>& value) const {
     const Node& node = nodes_[index];
-    const auto left = [&] { return evaluate(node.left, values); };
-    const auto right = [&] { return evaluate(node.right, values); };
+    const auto left = [&] { return evaluate(node.left, value); };
+    const auto right = [&] { return evaluate(node.right, value); };
     switch (node.operation) {
         case Operation::Literal:
-        case Operation::Word:
             return node.number;
         case Operation::Read:
-            return numberOf(values[node.property]);
+            return value(node.name);
         case Operation::Not:
             return left() == 0 ? 1 : 0;
         case Operation::And:
@@ -347,9 +368,9 @@ double Condition::evaluate(std::size_t index, const std::vector<Value>& values) 
 std::vector<std::size_t> Condition::reads() const {
     std::vector<std::size_t> out;
     for (const Node& node : nodes_) {
-        if (node.operation == Operation::Read) out.push_back(node.property);
+        if (node.operation == Operation::Read) out.push_back(node.name);
     }
     return out;
 }
 
-}  // namespace pelage::materials
+}  // namespace pelage::json
