@@ -58,7 +58,7 @@ std::string facts(const Plan& plan, const PageOptions& options) {
 
 std::string settings(const PageOptions& options) {
     if (options.settings.empty()) return {};
-    std::string out = "<p class=\"dim\">Settings:";
+    std::string out = "<p class=\"dim\">Settings asked for:";
     for (const auto& [name, value] : options.settings) out += " " + escaped(name) + " = " + escaped(value) + ";";
     out.back() = '.';
     return out + "</p>\n";
@@ -105,6 +105,18 @@ std::string passTable(const Plan& plan) {
     return out + "</table>\n";
 }
 
+std::string heapTable(const Plan& plan) {
+    std::string out = "<table>\n<tr><th>image</th><th>bytes of the heap</th><th>size</th><th>passes</th></tr>\n";
+    for (const PlanResource& resource : plan.resources) {
+        if (resource.heapOffset == notPlaced) continue;
+        out += "<tr><td>" + escaped(resource.name) + "</td><td>" + std::to_string(resource.heapOffset) + " to " +
+               std::to_string(resource.heapOffset + resource.heapBytes) + "</td><td>" + byteText(resource.heapBytes) +
+               "</td><td>" + std::to_string(resource.firstPass + 1) + " to " + std::to_string(resource.lastPass + 1) +
+               "</td></tr>\n";
+    }
+    return plan.heapBytes == 0 ? std::string() : out + "</table>\n";
+}
+
 std::string list(const std::string& title, const std::vector<std::string>& lines, const char* none) {
     std::string out = "<h2>" + escaped(title) + "</h2>\n";
     if (lines.empty()) return out + "<p class=\"dim\">" + none + "</p>\n";
@@ -131,7 +143,7 @@ std::string html(const Plan& plan, const PageOptions& options) {
         "<h2>Memory: where in the heap, and when</h2>\n<p class=\"dim\">Bytes run downwards. Images whose lives do "
         "not meet share bytes. Buffers, lent images and images with a history are not placed here.</p>\n"
         "<div class=\"chart\">\n" +
-        heapChart(plan) + "</div>\n";
+        heapChart(plan) + "</div>\n" + heapTable(plan);
     out +=
         "<h2>Each pass</h2>\n<p class=\"dim\">What it waits for is derived from the plan; all waits of a pass are "
         "one barrier on the device";

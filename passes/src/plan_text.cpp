@@ -42,7 +42,7 @@ std::string versionText(const PlanSlot& slot) {
     if (slot.access == SlotAccess::Read) return slot.reads == ~0U ? "as lent" : version(slot.reads);
     if (slot.makes == ~0U) return "as lent";
     if (slot.access == SlotAccess::Write || slot.reads == ~0U) return version(slot.makes);
-    return version(slot.reads) + " to " + version(slot.makes);
+    return version(slot.reads) + "-" + version(slot.makes);
 }
 
 std::string loadStoreText(const PlanSlot& slot) {

@@ -15,7 +15,7 @@ std::string shapeText(const PlanResource& resource);
 std::string byteText(std::uint64_t bytes);
 std::string_view useText(SlotUse use);
 std::string_view kindText(PassKind kind);
-/// "v1", "v1 to v2", or "as lent".
+/// "v1"; "v1-v2" of what is changed; "as lent".
 std::string versionText(const PlanSlot& slot);
 /// "load", "clear" or "-", then "store" or "discard"; empty for a slot that only reads.
 std::string loadStoreText(const PlanSlot& slot);

@@ -16,10 +16,12 @@ TEST(Diagnostic, IsOneLineOfJsonWhateverTheTextHolds) {
               R"({"file":"a.json","line":3,"column":7,"severity":"error","code":"J004",)"
               R"("text":"key \"x\" given twice","hint":"first at 2:5",)"
               R"("related":[{"file":"a.json","line":2,"column":5}]})");
-    const std::string odd = toJson({Severity::Note, "V007", "a\\b", 0, 0, "line\nbreak \x01 \xff \xc3\xa9 \xed\xa0\x80", ""});
-    EXPECT_EQ(odd,
-              "{\"file\":\"a\\\\b\",\"line\":0,\"column\":0,\"severity\":\"note\",\"code\":\"V007\","
-              "\"text\":\"line\\u000abreak \\u0001 \\ufffd \xc3\xa9 \\ufffd\\ufffd\\ufffd\",\"hint\":\"\",\"related\":[]}");
+    const std::string odd =
+        toJson({Severity::Note, "V007", "a\\b", 0, 0, "line\nbreak \x01 \xff \xc3\xa9 \xed\xa0\x80", ""});
+    EXPECT_EQ(
+        odd,
+        "{\"file\":\"a\\\\b\",\"line\":0,\"column\":0,\"severity\":\"note\",\"code\":\"V007\","
+        "\"text\":\"line\\u000abreak \\u0001 \\ufffd \xc3\xa9 \\ufffd\\ufffd\\ufffd\",\"hint\":\"\",\"related\":[]}");
 }
 
 TEST(Diagnostic, PlacesInItsSentencesAreRelated) {
