@@ -86,4 +86,11 @@ struct GraphOptions {
 };
 int graph(const GraphOptions& options);
 
+struct SchemaOptions {
+    std::string name = {};  // passtree or material
+    bool markdown = false;  // a page for people instead
+    std::string output = "-";
+};
+int schema(const SchemaOptions& options);
+
 }  // namespace pelage::app

@@ -146,6 +146,16 @@ void addGraph(CLI::App& app, GraphOptions& options, int& result) {
     command->callback([&] { result = graph(options); });
 }
 
+void addSchema(CLI::App& app, SchemaOptions& options, int& result) {
+    CLI::App* command = app.add_subcommand("schema", "Print the schema of a kind of file, or a page about it");
+    command->add_option("name", options.name, "passtree or material")->required();
+    command->add_flag("--markdown", options.markdown, "The page: docs/passes.md and docs/materials.md are such");
+    command->add_option("-o,--output", options.output, "- is standard output")
+        ->type_name("FILE")
+        ->capture_default_str();
+    command->callback([&] { result = schema(options); });
+}
+
 void addFiles(CLI::App& app, const char* name, const char* help, std::vector<std::string>& files, int& result,
               int (*run)(const std::vector<std::string>&)) {
     CLI::App* command = app.add_subcommand(name, help);
@@ -166,6 +176,7 @@ int run(int argc, char** argv) {
     AccuracyOptions accuracyOptions;
     CheckOptions checkOptions;
     GraphOptions graphOptions;
+    SchemaOptions schemaOptions;
     std::vector<std::string> files;
     addRender(app, renderOptions, result);
     addView(app, viewOptions, result);
@@ -176,6 +187,7 @@ int run(int argc, char** argv) {
     addFiles(app, "info", "Say what is in hair files", files, result, info);
     addCheck(app, checkOptions, result);
     addGraph(app, graphOptions, result);
+    addSchema(app, schemaOptions, result);
     addFiles(app, "migrate", "Rewrite material files for the present version of their type; comments are not kept",
              files, result, migrate);
     try {
