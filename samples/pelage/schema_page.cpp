@@ -71,7 +71,7 @@ public:
             out += "\n### " + each.key + "\n\n";
             const std::string about = words(each.value, "description");
             if (!about.empty()) out += sentence(about) + "\n\n";
-            const Value* forms = each.value.find("oneOf");
+            const Value* forms = each.value.find("properties") ? nullptr : each.value.find("oneOf");
             if (!forms) out += definition(each.value);
             for (std::size_t i = 0; forms && i < forms->elements.size(); ++i) {
                 const Value& form = forms->elements[i];
