@@ -78,11 +78,6 @@ Outcome<Drawn> measured(const GraphOptions& options, hair::Library& library) {
         drawn.page.barriers = picture->report.barriers;
     }
     drawn.plan = renderer->plan();
-    // What the renderer offers and the tree does not want (H005) is no fault of the tree.
-    drawn.plan.warnings = {};
-    for (const Diagnostic& warning : renderer->plan().warnings.items()) {
-        if (warning.code != "H005") drawn.plan.warnings.add(warning);
-    }
     drawn.page.title = stage->tree->name() + ", " + stage->name;
     drawn.page.settings = settingsOf(*stage->tree, stage->file.frame.settings);
     drawn.page.device = gpu->device.info().name;
