@@ -80,7 +80,7 @@ bool MaterialReader::addParents() {
         if (!usable) {
             const json::Document& child = document ? chain[chain.size() - 2] : chain.back();
             report(Severity::Error, "V012", child, place, "cannot use parent '" + name + "'",
-                   "parents are looked for beside the file, then among the presets");
+                   "check the name; it is looked for beside the file, by hair::Library among the presets too");
             if (!document) diagnostics.append(document.error());
             return false;
         }

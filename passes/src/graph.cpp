@@ -66,7 +66,9 @@ rhi::Result<void> makeResources(Graph::State& state) {
 
 // What the host says in words and numbers; its callbacks cannot be compared.
 bool same(const HostDescription& a, const HostDescription& b) {
-    return a.extent == b.extent && a.depth == b.depth && a.settings == b.settings && a.imports == b.imports;
+    return a.extent == b.extent && a.depth == b.depth && a.settings == b.settings && a.imports == b.imports &&
+           a.unwantedExports == b.unwantedExports && a.maxSide == b.maxSide && a.maxLayers == b.maxLayers &&
+           a.maxBytes == b.maxBytes;
 }
 
 }  // namespace
@@ -98,7 +100,7 @@ std::uint32_t Graph::State::layersOf(const PlanPass& pass) const {
 Graph::Graph(Descriptor descriptor) : descriptor_(std::move(descriptor)) {}
 
 Checked<void> Graph::build(const PassTree& tree, const HostDescription& host) {
-    if (state_ && state_->tree == tree.shared() && same(state_->host, host)) return {};
+    if (state_ && !stale_ && state_->tree == tree.shared() && same(state_->host, host)) return {};
     HostDescription asked = host;
     if (!asked.supports) {
         asked.supports = [device = descriptor_.device](rhi::TextureFormat format, rhi::TextureUsage usage,
@@ -106,6 +108,9 @@ Checked<void> Graph::build(const PassTree& tree, const HostDescription& host) {
             return device.supports(format, usage, samples);
         };
     }
+    const rhi::Limits& limits = descriptor_.device.limits();
+    asked.maxSide = std::min(asked.maxSide, limits.maxTextureDimension2D);
+    asked.maxLayers = std::min(asked.maxLayers, limits.maxTextureArrayLayers);
     if (!asked.memory) {
         asked.memory = [device = descriptor_.device](const PlanResource& image) {
             const auto need = device.memoryRequirements(descriptorOf(image));
@@ -152,6 +157,7 @@ Checked<void> Graph::build(const PassTree& tree, const HostDescription& host) {
     }
     state_ = std::move(state);
     ++plansMade_;
+    stale_ = false;
     return {};
 }
 

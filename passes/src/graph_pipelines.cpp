@@ -113,6 +113,15 @@ private:
         rhi::RenderPipelineDescriptor descriptor{.label = pass.name, .vertex = {.module = *vertex}};
         descriptor.fragment = stage(*fragment, pass);
         descriptor.multisample.count = made.targets.samples;
+        for (const rhi::ReflectedVariable& output : fragment->reflection().outputs) {
+            if (output.location < made.targets.colors.size()) continue;
+            reporter_.error(place_, "S013",
+                            "'" + pass.shader + "' writes '" + output.name + "' to location " +
+                                std::to_string(output.location) + "; '" + pass.name + "' has " +
+                                std::to_string(made.targets.colors.size()) + " color target(s)",
+                            "give the pass another color slot, or remove the output");
+            return;
+        }
         for (const PlanSlot& slot : pass.slots) {
             if (slot.resource == ~0U) continue;
             if (slot.use == SlotUse::Color) {

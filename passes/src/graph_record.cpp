@@ -273,7 +273,10 @@ rhi::Result<void> Graph::record(rhi::CommandEncoder& encoder, const FrameImports
         return begun;
     }
     for (std::size_t i = 0; i < state_->passes.size(); ++i) {
-        if (auto done = recorder.pass(i); !done) {
+        rhi::Result<void> done = {};
+        if (descriptor_.poison) done = poison(*state_, static_cast<std::uint32_t>(i), encoder);
+        if (done) done = recorder.pass(i);
+        if (!done) {
             encoder.popDebugGroup();
             return done;
         }

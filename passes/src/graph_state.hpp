@@ -79,6 +79,9 @@ void endHistories(Graph::State& state);
 /// Which of a pair is written now, for passes that use one; 0 for the others.
 std::uint32_t turnOf(const Graph::State& state, const PlanPass& pass);
 
+/// Paints the images that begin with this pass (graph_poison.cpp).
+rhi::Result<void> poison(const Graph::State& state, std::uint32_t pass, rhi::CommandEncoder& encoder);
+
 /// The image or buffer of a slot by its name.
 rhi::Texture textureOf(const Graph::State& state, const PlanPass& pass, std::string_view slot);
 rhi::Buffer bufferOf(const Graph::State& state, const PlanPass& pass, std::string_view slot);

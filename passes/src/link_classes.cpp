@@ -14,6 +14,15 @@ std::string shown(double number) {
     return text;
 }
 
+PassKind kindOfSlots(const PassDeclaration& pass) {
+    for (const SlotDeclaration& slot : pass.slots) {
+        if (slot.use == SlotUse::Copy) return PassKind::Copy;
+        if (slot.use == SlotUse::Color || slot.use == SlotUse::Depth || slot.use == SlotUse::Vertex)
+            return PassKind::Raster;
+    }
+    return PassKind::Compute;
+}
+
 std::string kindOf(const ParameterInfo& info) {
     if (info.type == ParameterInfo::Type::Bool) return "true or false";
     if (info.type == ParameterInfo::Type::Number) return "a number in " + shown(info.min) + ".." + shown(info.max);
@@ -37,6 +46,10 @@ void Linker::findClasses() {
         if (!pass.info) {
             // A pass that is off needs no class: a tree may have passes for hosts that know more.
             if (!pass.enabled) continue;
+            if (host.trustClasses) {
+                pass.kind = kindOfSlots(says);
+                continue;
+            }
             reporter.error(says.classPlace, "P053", title + ": unknown class '" + says.passClass + "'",
                            didYouMean(says.passClass, known,
                                       known.empty() ? "the host registers none; add it to Graph::Descriptor::classes"

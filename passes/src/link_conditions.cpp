@@ -83,6 +83,11 @@ void Linker::evaluateConditions() {
                              didYouMean(name, namesOf(tree.imports)));
         }
     }
+    for (const std::string& name : host.unwantedExports) {
+        if (has(namesOf(tree.exports), name)) continue;
+        reporter.warning({}, "H005", "the tree '" + tree.name + "' has no export '" + name + "' to leave out",
+                         didYouMean(name, namesOf(tree.exports)));
+    }
     for (const ViewDeclaration& view : tree.views) {
         viewCounts.push_back(wholeNumber(number(view.count)));
         plan.viewCounts[view.name] = viewCounts.back();

@@ -7,8 +7,6 @@
 namespace pelage::passes {
 namespace {
 
-constexpr std::uint32_t largestSide = 32768;
-
 bool isTarget(const SlotDeclaration& slot) {
     return slot.use == SlotUse::Color || slot.use == SlotUse::Depth;
 }
@@ -167,21 +165,27 @@ private:
         image.samples = static_cast<std::uint32_t>(linker_.number(says.samples));
         image.layers = says.layersView.empty() ? says.layers : std::max(1U, linker_.viewCounts[says.viewIndex]);
         const auto [width, height] = size(says.size);
-        if (width < 1 || height < 1 || width > largestSide || height > largestSide) {
+        if (width < 1 || height < 1 || width > linker_.host.maxSide || height > linker_.host.maxSide) {
             if (!sizeFailed_) {
                 linker_.reporter.error(says.size.place, "D002",
                                        "'" + image.name + "' would be " + std::to_string(width) + " x " +
-                                           std::to_string(height) + "; a side is 1.." + std::to_string(largestSide));
+                                           std::to_string(height) + "; a side is 1.." +
+                                           std::to_string(linker_.host.maxSide),
+                                       settingHint(says.size.width));
             }
             sizeFailed_ = false;
             return;
         }
         image.extent = {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), image.layers};
-        if (image.layers > 256) {
-            linker_.reporter.error(
-                says.layersPlace, "D002",
-                "'" + image.name + "' would have " + std::to_string(image.layers) + " layers; at most 256");
+        if (image.layers > linker_.host.maxLayers) {
+            linker_.reporter.error(says.layersPlace, "D002",
+                                   "'" + image.name + "' would have " + std::to_string(image.layers) +
+                                       " layers; at most " + std::to_string(linker_.host.maxLayers));
         }
+    }
+
+    static std::string settingHint(const NumberOrSetting& value) {
+        return value.setting.empty() ? std::string{} : "lower or raise the setting '" + value.setting + "'";
     }
 
     void buffer(LinkedResource& resource) {
@@ -192,13 +196,14 @@ private:
             bytes *= static_cast<double>(width) * static_cast<double>(height);
         }
         bytes = std::ceil(bytes / 16) * 16;
-        constexpr double most = 4294967296.0;
-        if (bytes < 1 || bytes > most) {
+        const std::uint64_t most = std::min<std::uint64_t>(1ULL << 32, linker_.host.maxBytes);
+        if (bytes < 1 || bytes > static_cast<double>(most)) {
             if (!sizeFailed_) {
                 linker_.reporter.error(says.place, "D002",
                                        "'" + resource.plan.name + "' would have " +
-                                           std::to_string(static_cast<long long>(bytes)) +
-                                           " bytes; a buffer has 1..4294967296");
+                                           std::to_string(static_cast<long long>(bytes)) + " bytes; a buffer has 1.." +
+                                           std::to_string(most),
+                                       settingHint(says.count));
             }
             sizeFailed_ = false;
             return;
@@ -237,7 +242,7 @@ private:
             return scaled(lent->second.extent.width, lent->second.extent.height, says.scale);
         }
         const auto [width, height] = size(linker_.tree.attachments[says.likeIndex].size);
-        if (std::max(width, height) > largestSide) return {width, height};
+        if (std::max(width, height) > linker_.host.maxSide) return {width, height};
         return scaled(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), says.scale);
     }
 
@@ -268,7 +273,7 @@ private:
             if (!first) first = &slot;
         }
         // What a class copies is its own affair.
-        if (copies[0] && copies[1] && !pass.info) copyFits(pass, *copies[0], *copies[1]);
+        if (copies[0] && copies[1] && pass.says->passClass.empty()) copyFits(pass, *copies[0], *copies[1]);
         conflicts(pass);
     }
 

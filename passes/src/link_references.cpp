@@ -146,6 +146,7 @@ private:
 
     void exported(std::size_t index) {
         const ExportDeclaration& each = linker_.tree.exports[index];
+        if (has(linker_.host.unwantedExports, each.name)) return;
         for (const Reference& reference : each.from) {
             const std::uint32_t version = reference.root == Root::Pass ? resultOf(reference) : none;
             if (version == none) continue;

@@ -41,6 +41,7 @@ public:
         begins_.resize(plan_.passes.size());
         alive_.resize(plan_.passes.size());
         for (const Item& item : placed_) place(item);
+        if (plan_.heapBytes > linker_.host.maxBytes) tooMuch();
     }
 
 private:
@@ -51,6 +52,20 @@ private:
     struct Range {
         std::uint64_t begin, end;
     };
+
+    void tooMuch() {
+        const PlanResource& largest = plan_.resources[placed_.front().resource];
+        const AttachmentDeclaration* says = nullptr;
+        for (const LinkedResource& each : linker_.resources) {
+            if (each.index == placed_.front().resource) says = each.attachment;
+        }
+        linker_.reporter.error(says ? says->place : Place{}, "D002",
+                               "the images of '" + linker_.tree.name + "' need " + std::to_string(plan_.heapBytes) +
+                                   " bytes, " + std::to_string(linker_.host.maxBytes) +
+                                   " are allowed; the largest is '" + largest.name + "' with " +
+                                   std::to_string(largest.heapBytes),
+                               "lower its size, layers or samples");
+    }
 
     void findPeak() {
         std::vector<std::int64_t> change(plan_.passes.size() + 1, 0);

@@ -25,7 +25,7 @@ void readPasses(const json::Value& root, PassTree::Description& description, Rep
 /// Faults that are there whatever the settings: names, references, what may follow what (check.cpp).
 void checkDescription(PassTree::Description& description, Reporter& reporter);
 
-/// Numbers for names, so that the linker compares no words (check_references.cpp). Only for a tree without fault.
+/// Numbers for names, so that the linker compares no words (resolve_names.cpp). Only for a tree without fault.
 void resolveNames(PassTree::Description& description);
 
 /// The text of passtree.schema.json.

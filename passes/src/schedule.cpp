@@ -78,7 +78,8 @@ private:
             const std::string& name = pass.says->name;
             culled[name] =
                 name + ": " + (pass.enabled ? "no export needs its result" : "switched off, " + linker_.whyOff(pass));
-            if (!pass.enabled) continue;
+            // What this host does not want is no fault of the file.
+            if (!pass.enabled || !linker_.host.unwantedExports.empty()) continue;
             linker_.reporter.warning(pass.says->namePlace, "P048",
                                      "pass '" + name + "' is culled: no export needs its result",
                                      "export it, connect it, mark \"sideEffects\": true, or delete it");

@@ -54,22 +54,31 @@ const std::vector<std::string>& PassTree::files() const {
 const std::vector<SettingInfo>& PassTree::settings() const {
     return description_->settingInfos;
 }
+std::vector<std::string> PassTree::drawLists() const {
+    return namesOf(description_->drawLists);
+}
+std::vector<std::string> PassTree::exports() const {
+    return namesOf(description_->exports);
+}
 std::vector<ImportInfo> PassTree::imports() const {
     std::vector<ImportInfo> infos;
     for (const ImportDeclaration& import : description_->imports) {
+        using Kind = ImportDeclaration::Kind;
         infos.push_back({.name = import.name,
-                         .isBuffer = import.kind == ImportDeclaration::Kind::Buffer,
+                         .buffer = import.kind == Kind::Buffer,
+                         .cube = import.kind == Kind::ImageCube,
                          .optional = import.optional,
                          .formats = import.formats,
                          .samples = import.samples});
     }
     return infos;
 }
-std::vector<std::string> PassTree::drawLists() const {
-    return namesOf(description_->drawLists);
-}
-std::vector<std::string> PassTree::exports() const {
-    return namesOf(description_->exports);
+std::vector<std::string> PassTree::passClasses() const {
+    std::vector<std::string> names;
+    for (const PassDeclaration& pass : description_->passes) {
+        if (!pass.passClass.empty() && !has(names, pass.passClass)) names.push_back(pass.passClass);
+    }
+    return names;
 }
 const Diagnostics& PassTree::warnings() const {
     return description_->warnings;

@@ -65,6 +65,7 @@ struct QueueState {
     VkQueue handle = VK_NULL_HANDLE;
     VkSemaphore timeline = VK_NULL_HANDLE;
     std::uint64_t submitted = 0;  // the last value given out, to a submission or a host's ticket
+    BarrierLog barriers;
     std::uint64_t signalled = 0;  // the last value that a submission of our own will signal
     vulkan::QueueLock hostLock;   // held around every call on the queue, inside `mutex`
     std::vector<CommandSlot> running, idle;
@@ -99,6 +100,9 @@ struct DeviceObject : std::enable_shared_from_this<DeviceObject> {
     Result<std::pair<VkDescriptorSet, VkDescriptorPool>> allocateSet(VkDescriptorSetLayout layout,
                                                                      const std::string& object);
     void freeSet(VkDescriptorSet set, VkDescriptorPool pool);
+    /// Recordings are used again, so that a frame like the last one allocates nothing for them.
+    void takeRecording(Recording& into);
+    void giveBack(Recording& recording);
 
     std::shared_ptr<AdapterObject> adapter;
     DeviceFunctions functions;
@@ -133,6 +137,9 @@ struct DeviceObject : std::enable_shared_from_this<DeviceObject> {
     std::mutex timelineMutex;
     std::vector<std::uint64_t> openTickets, openSubmissions;  // not known to be done, ascending
     std::uint64_t lastBegun = 0;
+
+    std::mutex recordingMutex;
+    std::vector<std::unique_ptr<Recording>> recordings;
 
     std::mutex poolMutex;
     std::vector<VkDescriptorPool> pools;

@@ -20,8 +20,8 @@ ComputePassEncoder CommandEncoder::beginComputePass(const ComputePassDescriptor&
 
 void ComputePassEncoder::setPipeline(const ComputePipeline& pipeline) {
     if (!encoder_ || !encoder_->ready(EncoderObject::State::ComputePass, "setPipeline")) return;
-    if (!encoder_->accept(pipeline, "the pipeline") || encoder_->pass.pipeline == pipeline.shared()) return;
-    encoder_->pass.pipeline = pipeline.shared();
+    if (!encoder_->accept(pipeline, "the pipeline") || encoder_->pass.pipeline == pipeline.get()) return;
+    encoder_->pass.pipeline = pipeline.get();
     encoder_->add(packet::BindPipeline{pipeline.get(), VK_PIPELINE_BIND_POINT_COMPUTE});
 }
 

@@ -149,8 +149,10 @@ void CommandEncoder::copyBufferToBuffer(const Buffer& source, std::uint64_t sour
         !valid(e, range(to, destinationOffset, size, "the destination")))
         return;
     if (size == 0) return;
+    const auto region = static_cast<std::uint32_t>(e.recording.bufferRegions.size());
+    e.recording.bufferRegions.push_back({sourceOffset, destinationOffset, size});
     scoped(e, {detail::copyUse(from, UseKind::CopySource), detail::copyUse(to, UseKind::CopyDestination)},
-           packet::CopyBuffer{&from, &to, {sourceOffset, destinationOffset, size}});
+           packet::CopyBuffer{&from, &to, region});
 }
 
 namespace {
@@ -303,14 +305,13 @@ Result<CommandBuffer> CommandEncoder::finish() {
             invalid(ErrorCode::EncoderState, cat(e.debugGroups, " debug groups were left open at finish().")).value());
     e.state = State::Finished;
     if (e.error) {
-        e.recording = {};
+        e.device->giveBack(e.recording);
         e.device->report(*e.error);
         return detail::forward(*e.error);
     }
     auto object = std::make_shared<detail::CommandBufferObject>(e.device, "CommandBuffer", e.label);
     object->recording = std::move(e.recording);
     object->counters = e.counters;
-    e.recording = {};
     return CommandBuffer(std::move(object));
 }
 

@@ -7,14 +7,15 @@
 namespace pelage::rhi::detail {
 
 const Use* ScopeBuilder::add(const Use& use) {
-    const auto [entry, fresh] = first_.try_emplace(use.object, static_cast<std::int32_t>(uses_.size()));
+    const auto [head, fresh] = first_.insert(use.object, static_cast<std::uint32_t>(uses_.size()));
     if (fresh) {
+        heads_.push_back(head);
         uses_.push_back(use);
         return nullptr;
     }
     const bool depth = use.texture && isDepth(static_cast<const TextureObject*>(use.object)->descriptor.format);
-    std::int32_t merged = -1, last = entry->second;
-    for (std::int32_t i = entry->second; i >= 0; i = uses_[static_cast<std::size_t>(i)].next) {
+    std::int32_t merged = -1, last = static_cast<std::int32_t>(head);
+    for (std::int32_t i = last; i >= 0; i = uses_[static_cast<std::size_t>(i)].next) {
         auto& other = uses_[static_cast<std::size_t>(i)];
         last = i;
         if (use.texture && !other.range.overlaps(use.range)) continue;
@@ -35,8 +36,8 @@ const Use* ScopeBuilder::add(const Use& use) {
 
 packet::Scope ScopeBuilder::take(std::vector<Use>& to) {
     packet::Scope scope{static_cast<std::uint32_t>(to.size()), 0};
-    for (const auto& [object, head] : first_) {
-        const auto& first = uses_[static_cast<std::size_t>(head)];
+    for (const std::uint32_t head : heads_) {
+        const auto& first = uses_[head];
         if (first.next < 0) {
             to.push_back(first);
             continue;
@@ -44,7 +45,7 @@ packet::Scope ScopeBuilder::take(std::vector<Use>& to) {
         // Different parts of one texture: where they overlap, each subresource gets one merged use.
         std::vector<Use> parts;
         bool overlap = false;
-        for (std::int32_t i = head; i >= 0; i = uses_[static_cast<std::size_t>(i)].next) {
+        for (auto i = static_cast<std::int32_t>(head); i >= 0; i = uses_[static_cast<std::size_t>(i)].next) {
             const auto& u = uses_[static_cast<std::size_t>(i)];
             for (const auto& p : parts) overlap = overlap || p.range.overlaps(u.range);
             parts.push_back(u);
@@ -70,17 +71,13 @@ packet::Scope ScopeBuilder::take(std::vector<Use>& to) {
                 }
     }
     scope.count = static_cast<std::uint32_t>(to.size()) - scope.first;
-    // The map's order is no order at all; the recording's is the order of the first use.
-    std::sort(to.begin() + scope.first, to.end(), [](const Use& a, const Use& b) {
-        return std::tuple(a.object->id, a.range.baseMip, a.range.baseLayer) <
-               std::tuple(b.object->id, b.range.baseMip, b.range.baseLayer);
-    });
     clear();
     return scope;
 }
 
 void ScopeBuilder::clear() {
     uses_.clear();
+    heads_.clear();
     first_.clear();
 }
 
@@ -138,7 +135,7 @@ void EncoderObject::setBindGroup(std::uint32_t index, const BindGroup& group, st
                                                     " dynamic offsets; its layout has ", layout.dynamicCount, '.'))
                 .value());
     std::size_t next = 0;
-    for (std::size_t i = 0; i < layout.entries.size(); ++i) {
+    for (std::size_t i = 0; layout.dynamicCount != 0 && i < layout.entries.size(); ++i) {
         const auto& e = layout.entries[i];
         if (!e.hasDynamicOffset) continue;
         const std::uint32_t offset = offsets[next++];
@@ -155,11 +152,10 @@ void EncoderObject::setBindGroup(std::uint32_t index, const BindGroup& group, st
     }
     if (pass.groups.size() <= index) pass.groups.resize(index + 1);
     auto& slot = pass.groups[index];
-    if (slot.group == group.shared() &&
-        std::equal(offsets.begin(), offsets.end(), slot.offsets.begin(), slot.offsets.end()))
+    if (slot.group == &object && std::equal(offsets.begin(), offsets.end(), slot.offsets.begin(), slot.offsets.end()))
         return;
-    if (slot.group != group.shared()) pass.groupsChanged = true;
-    slot.group = group.shared();
+    if (slot.group != &object) pass.groupsChanged = true;
+    slot.group = group.get();
     slot.offsets.assign(offsets.begin(), offsets.end());
     slot.dirty = true;
 }
@@ -311,15 +307,14 @@ bool EncoderObject::flushBindings(VkPipelineBindPoint point, VkPipelineStageFlag
         }
         const auto first = static_cast<std::uint32_t>(recording.offsets.size());
         recording.offsets.insert(recording.offsets.end(), slot.offsets.begin(), slot.offsets.end());
-        add(packet::BindSet{slot.group.get(), &layout, point, i, first,
-                            static_cast<std::uint32_t>(slot.offsets.size())});
+        add(packet::BindSet{slot.group, &layout, point, i, first, static_cast<std::uint32_t>(slot.offsets.size())});
         slot.dirty = false;
     }
     if (pass.groupsChanged)
         for (std::uint32_t i = 0; i < layout.sets.size(); ++i) {
             if (layout.sets[i]->entries.empty()) continue;
-            const auto* group = pass.groups[i].group.get();
-            if (!pass.merged.insert(group).second) continue;
+            const auto* group = pass.groups[i].group;
+            if (!pass.merged.insert(group, 0).second) continue;
             for (auto u : group->uses) {
                 u.access.stages &= stages;
                 if (u.access.stages == 0) continue;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "device_object.hpp"
+#include "pointer_map.hpp"
 #include "recording.hpp"
 
 namespace pelage::rhi::detail {
@@ -18,7 +19,8 @@ public:
 
 private:
     std::vector<Use> uses_;
-    std::unordered_map<const Object*, std::int32_t> first_;
+    std::vector<std::uint32_t> heads_;  // the first use of each object, in the order of use
+    PointerMap first_;
 };
 
 /// "draw #3", spelled out only when something is wrong.
@@ -29,20 +31,20 @@ struct CommandName {
 };
 
 struct BoundGroup {
-    std::shared_ptr<BindGroupObject> group;
+    BindGroupObject* group = nullptr;  // kept by the recording, like everything below
     std::vector<std::uint32_t> offsets;
     bool dirty = false;
 };
 
 /// What a pass has set so far.
 struct PassState {
-    std::shared_ptr<PipelineObject> pipeline;
+    PipelineObject* pipeline = nullptr;
     std::vector<BoundGroup> groups;
     PipelineLayoutObject* boundLayout = nullptr;
     std::array<std::byte, 256> push = {};
     bool pushDirty = true, groupsChanged = true;
     struct Vertex {
-        std::shared_ptr<BufferObject> buffer;
+        BufferObject* buffer = nullptr;
         std::uint64_t offset = 0;
     };
     std::vector<Vertex> vertexBuffers;
@@ -53,7 +55,7 @@ struct PassState {
     std::size_t scopePacket = 0;
     packet::Scope lastDispatchScope;
     bool reuseScope = false;
-    std::unordered_set<const BindGroupObject*> merged;
+    PointerMap merged;  // groups whose uses are in the scope
     std::optional<TimestampWrites> timestamps;
     std::string context;
 };
@@ -61,6 +63,7 @@ struct PassState {
 struct EncoderObject {
     explicit EncoderObject(std::shared_ptr<DeviceObject> owner, std::string name)
         : device(std::move(owner)), label(std::move(name)) {
+        device->takeRecording(recording);
         recording.label = label;
     }
     enum class State : std::uint8_t { Open, RenderPass, ComputePass, Finished };
@@ -81,7 +84,7 @@ struct EncoderObject {
         recording.keep(handle);
         return true;
     }
-    void add(Packet packet) { recording.packets.push_back(std::move(packet)); }
+    void add(const Packet& packet) { recording.packets.push_back(packet); }
     bool use(const Use& use, const CommandName& command = {});
     void closeScope(std::size_t packetIndex);
 

@@ -189,7 +189,7 @@ RenderPassEncoder CommandEncoder::beginRenderPass(const RenderPassDescriptor& d)
 void RenderPassEncoder::setPipeline(const RenderPipeline& pipeline) {
     if (!encoder_ || !encoder_->ready(State::RenderPass, "setPipeline")) return;
     auto& e = *encoder_;
-    if (!e.accept(pipeline, "the pipeline") || e.pass.pipeline == pipeline.shared()) return;
+    if (!e.accept(pipeline, "the pipeline") || e.pass.pipeline == pipeline.get()) return;
     const auto& object = *pipeline.get();
     const auto& pass = e.recording.passes.back();
     const auto stop = [&](ErrorCode code, auto&&... parts) {
@@ -217,7 +217,7 @@ void RenderPassEncoder::setPipeline(const RenderPipeline& pipeline) {
                     pass.depth->view->texture->descriptor.sampleCount, '.');
     if (pass.depth && pass.depth->readOnly && object.writesDepth)
         return stop(ErrorCode::TargetMismatch, " writes depth; the pass' depth attachment is read-only.");
-    e.pass.pipeline = pipeline.shared();
+    e.pass.pipeline = pipeline.get();
     e.add(packet::BindPipeline{pipeline.get(), VK_PIPELINE_BIND_POINT_GRAPHICS});
 }
 
@@ -264,8 +264,8 @@ void RenderPassEncoder::setVertexBuffer(std::uint32_t slot, const Buffer& buffer
         return;
     if (e.pass.vertexBuffers.size() <= slot) e.pass.vertexBuffers.resize(slot + 1);
     auto& bound = e.pass.vertexBuffers[slot];
-    if (bound.buffer == buffer.shared() && bound.offset == offset) return;
-    bound = {buffer.shared(), offset};
+    if (bound.buffer == buffer.get() && bound.offset == offset) return;
+    bound = {buffer.get(), offset};
     e.add(packet::BindVertexBuffer{buffer.get(), offset, slot});
 }
 
@@ -275,7 +275,7 @@ void RenderPassEncoder::setIndexBuffer(const Buffer& buffer, IndexFormat format,
     if (!geometryBuffer(e, buffer, BufferUsage::Index, offset, UseKind::IndexBuffer,
                         detail::CommandName{"index buffer ", 0}))
         return;
-    e.pass.index = {buffer.shared(), offset};
+    e.pass.index = {buffer.get(), offset};
     e.pass.indexFormat = format;
     e.add(packet::BindIndexBuffer{buffer.get(), offset,
                                   format == IndexFormat::Uint16 ? VK_INDEX_TYPE_UINT16 : VK_INDEX_TYPE_UINT32});

@@ -14,9 +14,13 @@ constexpr VkAccessFlags2 writeAccess = VK_ACCESS_2_SHADER_WRITE_BIT | VK_ACCESS_
                                        VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT |
                                        VK_ACCESS_2_HOST_WRITE_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
 
-/// The host's last use as if it were a write: whoever comes next waits for it and sees it.
-AccessState stateFrom(VkImageLayout layout, VkPipelineStageFlags2 stages, VkAccessFlags2 access) {
-    return {layout, stages, 0, access & writeAccess, 0};
+/// The host's last use as if it were a write just now: whoever comes next waits for it and sees it.
+AccessState stateFrom(const DeviceObject& device, VkImageLayout layout, VkPipelineStageFlags2 stages,
+                      VkAccessFlags2 access) {
+    return {.layout = layout,
+            .writeStages = stages,
+            .writeAccess = access & writeAccess,
+            .wroteAt = device.queue.barriers.boundary()};
 }
 
 template <class Shared, class... What>
@@ -39,9 +43,9 @@ Result<vulkan::Ticket> record(DeviceObject& device, VkCommandBuffer commands,
     if (device.lost) return forward(lostError(device));
     if (auto ok = checkBuffers(device, commandBuffers); !ok) return forward(ok.error());
     for (const auto& t : textures)
-        t.texture.get()->state->states.assign(1, stateFrom(t.before.layout, t.before.stages, t.before.access));
+        t.texture.get()->state->states.assign(1, stateFrom(device, t.before.layout, t.before.stages, t.before.access));
     for (const auto& b : buffers)
-        b.buffer.get()->state = stateFrom(VK_IMAGE_LAYOUT_UNDEFINED, b.before.stages, b.before.access);
+        b.buffer.get()->state = stateFrom(device, VK_IMAGE_LAYOUT_UNDEFINED, b.before.stages, b.before.access);
     const std::uint64_t value = device.queue.submitted + 1;
     Replay replay(device, commands);
     replayAll(device, replay, commandBuffers);

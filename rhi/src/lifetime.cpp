@@ -60,9 +60,9 @@ void DeviceObject::finishTicket(std::uint64_t value) {
 
 std::uint64_t DeviceObject::completed() {
     std::uint64_t signalled = 0;
-    if (functions.vkGetSemaphoreCounterValue(handle, queue.timeline, &signalled) != VK_SUCCESS) {
-        loseDevice(lostError(*this));
-        return knownCompleted;
+    if (const auto r = functions.vkGetSemaphoreCounterValue(handle, queue.timeline, &signalled); r != VK_SUCCESS) {
+        if (r == VK_ERROR_DEVICE_LOST && !lost) report(vulkanError(r, "vkGetSemaphoreCounterValue", "the queue"));
+        return knownCompleted;  // out of memory: nothing new is known, and whoever waits will ask again
     }
     // Everything before the oldest that may still run is done.
     const std::lock_guard lock(timelineMutex);
@@ -72,6 +72,40 @@ std::uint64_t DeviceObject::completed() {
     if (!openTickets.empty()) done = std::min(done, openTickets.front() - 1);
     if (done > knownCompleted) knownCompleted = done;
     return knownCompleted;
+}
+
+void Recording::clear() {
+    label.clear();
+    packets.clear();
+    uses.clear();
+    passes.clear();
+    bufferRegions.clear();
+    bufferImageRegions.clear();
+    imageRegions.clear();
+    labels.clear();
+    offsets.clear();
+    bytes.clear();
+    references.clear();
+    referenced.clear();
+    weak.clear();
+}
+
+void DeviceObject::takeRecording(Recording& into) {
+    {
+        const std::lock_guard lock(recordingMutex);
+        if (!recordings.empty()) {
+            into = std::move(*recordings.back());
+            recordings.pop_back();
+        }
+    }
+    into.id = nextId++;
+}
+
+void DeviceObject::giveBack(Recording& recording) {
+    recording.clear();
+    const std::lock_guard lock(recordingMutex);
+    if (recordings.size() < 8) recordings.push_back(std::make_unique<Recording>(std::move(recording)));
+    recording = Recording();
 }
 
 void DeviceObject::collect() {
@@ -107,7 +141,10 @@ Result<std::pair<VkDescriptorSet, VkDescriptorPool>> DeviceObject::allocateSet(V
     VkDescriptorSet set = VK_NULL_HANDLE;
     for (std::size_t i = pools.size(); i-- > 0;) {
         allocate.descriptorPool = pools[i];
-        if (functions.vkAllocateDescriptorSets(handle, &allocate, &set) == VK_SUCCESS) return std::pair(set, pools[i]);
+        const auto r = functions.vkAllocateDescriptorSets(handle, &allocate, &set);
+        if (r == VK_SUCCESS) return std::pair(set, pools[i]);
+        if (r != VK_ERROR_OUT_OF_POOL_MEMORY && r != VK_ERROR_FRAGMENTED_POOL)
+            return forward(vulkanError(r, "vkAllocateDescriptorSets", object));
     }
     constexpr std::uint32_t sets = 256;
     const VkDescriptorPoolSize sizes[] = {

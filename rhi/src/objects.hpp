@@ -36,6 +36,7 @@ struct Object {
     std::string label;
     std::uint64_t id = 0;  // never used twice in one device, so it may stand in cache keys
     std::atomic<std::uint64_t> lastUse{0};
+    std::atomic<std::uint64_t> keptBy{0};  // the recording that asked last
 };
 
 struct BufferObject final : Object {

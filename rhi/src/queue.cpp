@@ -82,11 +82,11 @@ void markSent(DeviceObject& device, std::uint64_t value, std::span<const Command
     for (const auto& object : q.uploads->references) object->markUsed(value);
     for (auto& chunk : q.staging)
         if (chunk.value == 0 && chunk.used > 0) chunk.value = value;
-    *q.uploads = Recording();
+    q.uploads->clear();
     for (const auto& c : commandBuffers) {
         c.get()->submitted = true;
         for (const auto& object : c.get()->recording.references) object->markUsed(value);
-        c.get()->recording = Recording();  // used once: its objects are free to go when the device is done
+        device.giveBack(c.get()->recording);  // used once: its objects are free to go when the device is done
     }
 }
 
@@ -108,11 +108,16 @@ Result<Submission> submitLocked(DeviceObject& device, std::span<const CommandBuf
     Replay replay(device, slot->commands);
     replayAll(device, replay, commandBuffers);
     replay.finish(extras.present);
-    if (const auto r = f.vkEndCommandBuffer(slot->commands); r != VK_SUCCESS) {
+    // The states of what was used have moved on; a submission that does not happen leaves them untrue for good.
+    const auto refused = [&](VkResult r, const char* call) {
         f.vkResetCommandPool(device.handle, slot->pool, 0);
         q.idle.push_back(*slot);
-        return forward(vulkanError(r, "vkEndCommandBuffer", "the queue"));
-    }
+        q.uploads->references.clear();  // they hold what holds the device
+        auto error = vulkanError(r, call, "the queue");
+        device.loseDevice(error);
+        return forward(std::move(error));
+    };
+    if (const auto r = f.vkEndCommandBuffer(slot->commands); r != VK_SUCCESS) return refused(r, "vkEndCommandBuffer");
     VkCommandBufferSubmitInfo commands = {VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO};
     commands.commandBuffer = slot->commands;
     VkSemaphoreSubmitInfo signals[2] = {{VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO},
@@ -133,11 +138,7 @@ Result<Submission> submitLocked(DeviceObject& device, std::span<const CommandBuf
         const HostLock lock(q);
         sent = f.vkQueueSubmit2(q.handle, 1, &info, VK_NULL_HANDLE);
     }
-    if (const auto r = sent; r != VK_SUCCESS) {
-        f.vkResetCommandPool(device.handle, slot->pool, 0);
-        q.idle.push_back(*slot);
-        return forward(vulkanError(r, "vkQueueSubmit2", "the queue"));
-    }
+    if (sent != VK_SUCCESS) return refused(sent, "vkQueueSubmit2");
     device.began(value, false);
     q.signalled = value;
     q.acquired.clear();

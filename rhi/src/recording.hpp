@@ -5,7 +5,7 @@
 
 #include <unordered_set>
 
-#include "objects.hpp"
+#include "device_object.hpp"
 
 namespace pelage::rhi::detail {
 
@@ -94,7 +94,7 @@ struct Indirect {  // the arguments lie in a buffer
 struct CopyBuffer {
     BufferObject* source = nullptr;
     BufferObject* destination = nullptr;
-    VkBufferCopy region = {};
+    std::uint32_t region = 0;
 };
 struct CopyBufferImage {  // either way
     BufferObject* buffer = nullptr;
@@ -127,8 +127,7 @@ struct Upload {
     VkBuffer staging = VK_NULL_HANDLE;
     BufferObject* buffer = nullptr;
     TextureObject* texture = nullptr;
-    VkBufferCopy region = {};
-    std::uint32_t imageRegion = 0;
+    std::uint32_t region = 0;  // of buffers, or of images
 };
 }  // namespace packet
 
@@ -139,11 +138,15 @@ using Packet =
                  packet::Dispatch, packet::Indirect, packet::CopyBuffer, packet::CopyBufferImage, packet::CopyImage,
                  packet::Fill, packet::Timestamp, packet::ResolveQueries, packet::Upload>;
 
+static_assert(sizeof(Packet) <= 48, "packets are written by the thousand");
+
 struct Recording {
+    std::uint64_t id = 0;  // never used twice in one device
     std::string label;
     std::vector<Packet> packets;
     std::vector<Use> uses;
     std::vector<RenderPassPacket> passes;
+    std::vector<VkBufferCopy> bufferRegions;
     std::vector<VkBufferImageCopy> bufferImageRegions;
     std::vector<VkImageCopy> imageRegions;
     std::vector<std::string> labels;
@@ -156,7 +159,10 @@ struct Recording {
     /// Forgets the uploads to objects that are gone.
     void dropDead();
 
+    /// Empty, but with the memory it has.
+    void clear();
     void keep(const std::shared_ptr<Object>& object) {
+        object->keptBy.store(id, std::memory_order_relaxed);
         if (referenced.insert(object.get()).second) references.push_back(object);
     }
     template <class H>
@@ -164,7 +170,8 @@ struct Recording {
         handle.shared();
     }
     {
-        if (!referenced.contains(handle.get())) keep(std::shared_ptr<Object>(handle.shared()));
+        // Usually this recording was the last to keep it; another thread's encoder only makes the question dearer.
+        if (handle.get()->keptBy.load(std::memory_order_relaxed) != id) keep(std::shared_ptr<Object>(handle.shared()));
     }
 };
 
@@ -178,7 +185,8 @@ struct CommandBufferObject final : Object {
 /// Replays into a Vulkan command buffer with the barriers each scope needs. The queue's mutex is held.
 class Replay {
 public:
-    Replay(DeviceObject& device, VkCommandBuffer commands) : device_(device), commands_(commands) {}
+    Replay(DeviceObject& device, VkCommandBuffer commands)
+        : device_(device), commands_(commands), batch_(&device.queue.barriers) {}
     void run(const Recording& recording, CommandBuffer::Counters* counters);
     /// After everything: makes what was written visible to the host, and one texture ready to present.
     void finish(TextureObject* present);

@@ -7,10 +7,12 @@
 namespace pelage::rhi::detail {
 
 void Replay::flushBarriers() {
-    if (batch_.empty()) return;
-    batch_.record(commands_, device_.functions.vkCmdPipelineBarrier2);
+    if (!batch_.empty()) {
+        batch_.record(commands_, device_.functions.vkCmdPipelineBarrier2);
+        if (batch_.hasMemory()) device_.queue.barriers.note(batch_.memory());
+        ++counters_.barriers;
+    }
     batch_.clear();
-    ++counters_.barriers;
 }
 
 void Replay::beginLabel(const std::string& label) {
@@ -155,7 +157,7 @@ void Replay::play(const P& p) {
         else
             f.vkCmdDispatchIndirect(commands_, p.buffer->handle, p.offset);
     } else if constexpr (std::is_same_v<P, CopyBuffer>) {
-        f.vkCmdCopyBuffer(commands_, p.source->handle, p.destination->handle, 1, &p.region);
+        f.vkCmdCopyBuffer(commands_, p.source->handle, p.destination->handle, 1, &r.bufferRegions[p.region]);
     } else if constexpr (std::is_same_v<P, CopyBufferImage>) {
         const auto& region = r.bufferImageRegions[p.region];
         if (p.toImage)
@@ -178,10 +180,10 @@ void Replay::play(const P& p) {
     } else {
         static_assert(std::is_same_v<P, Upload>);
         if (p.buffer != nullptr)
-            f.vkCmdCopyBuffer(commands_, p.staging, p.buffer->handle, 1, &p.region);
+            f.vkCmdCopyBuffer(commands_, p.staging, p.buffer->handle, 1, &r.bufferRegions[p.region]);
         else
             f.vkCmdCopyBufferToImage(commands_, p.staging, p.texture->handle, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, 1,
-                                     &r.bufferImageRegions[p.imageRegion]);
+                                     &r.bufferImageRegions[p.region]);
     }
 }
 

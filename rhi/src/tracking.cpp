@@ -131,23 +131,54 @@ bool BarrierBatch::step(AccessState& state, const Access& access, VkImageMemoryB
     transition.srcAccessMask = state.writeAccess;
     transition.dstStageMask = access.stages;
     transition.dstAccessMask = access.access;
+    const std::uint64_t now = log_ != nullptr ? log_->boundary() : 0;
     if (access.write || relayout) {
-        const bool needed = relayout || transition.srcStageMask != 0;
-        if (access.write)
-            state = {access.layout, access.stages, 0, access.access & writes, 0};
-        else
-            state = {access.layout, access.stages, access.stages, 0, access.access};
+        const bool ordered =
+            !relayout && log_ != nullptr &&
+            (state.writeStages == 0 || log_->orders(state.wroteAt, state.writeStages, state.writeAccess, access)) &&
+            (state.readStages == 0 || log_->orders(state.readAt, state.readStages, 0, access));
+        const bool needed = relayout || (transition.srcStageMask != 0 && !ordered);
+        state = {.layout = access.layout, .writeStages = access.stages, .wroteAt = now, .readAt = now};
+        if (access.write) {
+            state.writeAccess = access.access & writes;
+        } else {
+            state.readStages = state.seenStages = access.stages;
+            state.seenAccess = access.access;
+        }
         return needed;
     }
-    const bool visible = (access.stages & ~state.readStages) == 0 && (access.access & ~state.readAccess) == 0;
     state.readStages |= access.stages;
-    state.readAccess |= access.access;
+    state.readAt = now;
+    const bool visible = (access.stages & ~state.seenStages) == 0 && (access.access & ~state.seenAccess) == 0;
     if (state.writeStages == 0 || visible) return false;
+    if (log_ != nullptr && log_->orders(state.wroteAt, state.writeStages, state.writeAccess, access)) return false;
     // The earlier readers are named again so that every stage read so far sees every access read so far.
+    state.seenStages |= access.stages;
+    state.seenAccess |= access.access;
     transition.srcStageMask = state.writeStages;
-    transition.dstStageMask = state.readStages;
-    transition.dstAccessMask = state.readAccess;
+    transition.dstStageMask = state.seenStages;
+    transition.dstAccessMask = state.seenAccess;
     return true;
+}
+
+void BarrierLog::note(const VkMemoryBarrier2& barrier) {
+    const auto all = [](VkPipelineStageFlags2 stages) {
+        return (stages & VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT) != 0 ? ~VkPipelineStageFlags2{0} : stages;
+    };
+    const auto every = [](VkAccessFlags2 access) {
+        return (access & VK_ACCESS_2_MEMORY_WRITE_BIT) != 0 ? ~VkAccessFlags2{0} : access;
+    };
+    entries_[next_] = {boundary_, all(barrier.srcStageMask), all(barrier.dstStageMask), every(barrier.srcAccessMask),
+                       every(barrier.dstAccessMask)};
+    next_ = (next_ + 1) % entries_.size();
+}
+
+bool BarrierLog::orders(std::uint64_t since, VkPipelineStageFlags2 stages, VkAccessFlags2 written,
+                        const Access& access) const {
+    return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& e) {
+        return e.boundary > since && (stages & ~e.from) == 0 && (access.stages & ~e.to) == 0 &&
+               (written & ~e.made) == 0 && (written == 0 || (access.access & ~e.seen) == 0);
+    });
 }
 
 void BarrierBatch::use(AccessState& state, const Access& access) {
@@ -177,7 +208,7 @@ AccessState TextureState::history() const {
 }
 
 void TextureState::discard(VkPipelineStageFlags2 stages) {
-    states.assign(1, AccessState{VK_IMAGE_LAYOUT_UNDEFINED, stages, 0, 0, 0});
+    states.assign(1, AccessState{.writeStages = stages});
 }
 
 void BarrierBatch::use(TextureState& texture, VkImage image, const Range& range, const Access& access) {
@@ -227,6 +258,7 @@ void BarrierBatch::full() {
 }
 
 void BarrierBatch::clear() {
+    if (log_ != nullptr) log_->nextBoundary();
     memory_ = false;
     memoryBarrier_ = {};
     images_.clear();

@@ -6,8 +6,12 @@
 //   write after anything   a barrier from the writer and *every* reader since
 //   other layout           an image barrier; the transition counts as a write that ends in the stages it was made for
 //   read after read        nothing
+//
+// A barrier on memory is global: one that was made for another resource since may serve as well. The BarrierLog knows
+// the last few, so that no second one is made for what is ordered already.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -50,9 +54,33 @@ bool compatible(UseKind a, UseKind b, bool depthFormat);
 
 struct AccessState {
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
-    VkPipelineStageFlags2 writeStages = 0, readStages = 0;
-    VkAccessFlags2 writeAccess = 0, readAccess = 0;  // readAccess: what the last write is visible to
+    VkPipelineStageFlags2 writeStages = 0, readStages = 0;  // the last write; everything that has read it since
+    VkAccessFlags2 writeAccess = 0;
+    VkPipelineStageFlags2 seenStages = 0;   // by barriers of its own the last write is visible to each of these stages
+    VkAccessFlags2 seenAccess = 0;          // for each of these accesses
+    std::uint64_t wroteAt = 0, readAt = 0;  // boundaries, as the BarrierLog counts them
     bool operator==(const AccessState&) const = default;
+};
+
+/// The last memory barriers of a queue, in its order.
+class BarrierLog {
+public:
+    std::uint64_t boundary() const { return boundary_; }
+    void nextBoundary() { ++boundary_; }
+    /// A memory barrier stands at this boundary.
+    void note(const VkMemoryBarrier2& barrier);
+    /// Does a barrier since order this write (or these readers, when `written` is 0) before the access?
+    bool orders(std::uint64_t since, VkPipelineStageFlags2 stages, VkAccessFlags2 written, const Access& access) const;
+
+private:
+    struct Entry {
+        std::uint64_t boundary = 0;
+        VkPipelineStageFlags2 from = 0, to = 0;
+        VkAccessFlags2 made = 0, seen = 0;
+    };
+    std::uint64_t boundary_ = 1;
+    std::array<Entry, 8> entries_ = {};
+    std::size_t next_ = 0;
 };
 
 struct Range {
@@ -81,6 +109,7 @@ struct TextureState {
 /// What one scope boundary needs.
 class BarrierBatch {
 public:
+    explicit BarrierBatch(BarrierLog* log = nullptr) : log_(log) {}
     void use(AccessState& state, const Access& access);
     void use(TextureState& state, VkImage image, const Range& range, const Access& access);
     /// One memory barrier, whatever it is about.
@@ -89,6 +118,7 @@ public:
     void full();
     bool empty() const { return !memory_ && images_.empty(); }
     void record(VkCommandBuffer commands, PFN_vkCmdPipelineBarrier2 call) const;
+    /// Ready for the next boundary.
     void clear();
     const std::vector<VkImageMemoryBarrier2>& images() const { return images_; }
     bool hasMemory() const { return memory_; }
@@ -96,6 +126,7 @@ public:
 
 private:
     bool step(AccessState& state, const Access& access, VkImageMemoryBarrier2& transition);
+    BarrierLog* log_ = nullptr;
     bool memory_ = false;
     VkMemoryBarrier2 memoryBarrier_ = {};
     std::vector<VkImageMemoryBarrier2> images_ = {};

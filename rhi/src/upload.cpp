@@ -87,18 +87,20 @@ bool clashes(const Recording& uploads, const Use& use, const VkBufferCopy& regio
         if (std::holds_alternative<packet::Scope>(uploads.packets[i])) return false;
         const auto& p = std::get<packet::Upload>(uploads.packets[i]);
         if (p.texture == use.object) return true;
-        if (p.buffer == use.object && p.region.dstOffset < region.dstOffset + region.size &&
-            region.dstOffset < p.region.dstOffset + p.region.size)
+        if (p.buffer != use.object) continue;
+        const auto& other = uploads.bufferRegions[p.region];
+        if (other.dstOffset < region.dstOffset + region.size && region.dstOffset < other.dstOffset + other.size)
             return true;
     }
     return true;  // there is no scope yet
 }
 
-void addUpload(Recording& uploads, const std::shared_ptr<Object>& object, const Use& use, packet::Upload upload) {
+void addUpload(Recording& uploads, const std::shared_ptr<Object>& object, const Use& use, const VkBufferCopy& region,
+               packet::Upload upload) {
     const auto known = uploads.weak.find(object.get());
     if (known != uploads.weak.end() && known->second.expired()) uploads.dropDead();  // its address is used again
     uploads.weak[object.get()] = object;
-    if (clashes(uploads, use, upload.region))
+    if (clashes(uploads, use, region))
         uploads.packets.push_back(packet::Scope{static_cast<std::uint32_t>(uploads.uses.size()), 0});
     for (std::size_t i = uploads.packets.size(); i-- > 0;) {
         auto* scope = std::get_if<packet::Scope>(&uploads.packets[i]);
@@ -133,8 +135,11 @@ Result<void> writeBuffer(DeviceObject& device, const Buffer& buffer, std::uint64
     packet::Upload upload;
     upload.staging = staged->buffer;
     upload.buffer = &b;
-    upload.region = {staged->offset, offset, data.size()};
-    addUpload(*device.queue.uploads, buffer.shared(), copyUse(b, UseKind::CopyDestination), upload);
+    const VkBufferCopy region = {staged->offset, offset, data.size()};
+    auto& uploads = *device.queue.uploads;
+    upload.region = static_cast<std::uint32_t>(uploads.bufferRegions.size());
+    uploads.bufferRegions.push_back(region);
+    addUpload(uploads, buffer.shared(), copyUse(b, UseKind::CopyDestination), region, upload);
     return {};
 }
 
@@ -162,8 +167,8 @@ Result<void> writeTexture(DeviceObject& device, const TexelCopyTextureInfo& dest
     packet::Upload upload;
     upload.staging = staged->buffer;
     upload.texture = &t;
-    upload.imageRegion = static_cast<std::uint32_t>(uploads.bufferImageRegions.size() - 1);
-    addUpload(uploads, destination.texture.shared(), copyUse(t, region->imageSubresource, UseKind::CopyDestination),
+    upload.region = static_cast<std::uint32_t>(uploads.bufferImageRegions.size() - 1);
+    addUpload(uploads, destination.texture.shared(), copyUse(t, region->imageSubresource, UseKind::CopyDestination), {},
               upload);
     return {};
 }

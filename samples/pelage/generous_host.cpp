@@ -5,6 +5,7 @@ namespace pelage::app {
 
 passes::HostDescription generousHost(const passes::PassTree& tree, const rhi::Extent3D& extent) {
     passes::HostDescription host{.extent = extent};
+    host.trustClasses = true;
     for (const passes::ImportInfo& import : tree.imports()) {
         passes::ImportDescription lent{
             .present = true, .format = rhi::TextureFormat::RGBA16Float, .extent = host.extent};

@@ -73,8 +73,8 @@ void buildUnchanged(benchmark::State& state) {
         "imports": { "In": { "kind": "image", "access": "read" } },
         "settings": { "a": { "type": "uint", "default": 1 }, "b": { "type": "uint", "default": 1 } },
         "attachments": {)" + attachments +
-                                        "}, \"passes\": [" + passes +
-                                        R"(], "exports": { "Out": { "from": ")" + before + "\" } } }");
+                                        "}, \"passes\": [" + passes + R"(], "exports": { "Out": { "from": ")" + before +
+                                        "\" } } }");
     HostDescription host{.extent = {64, 64, 1}};
     host.imports["In"] = {true, rhi::TextureFormat::RGBA8Unorm, {64, 64, 1}, 1};
     host.settings["a"] = host.settings["b"] = {SettingValue::Type::Uint, 2, {}};

@@ -2,6 +2,7 @@
 // Material types and shaders of a host's own: they are drawn, and what does not fit together is said.
 #include "gpu.hpp"
 #include "pictures.hpp"
+#include "renderer/material_check.hpp"
 
 #include <pelage/hair/functors.hpp>
 
@@ -142,11 +143,26 @@ TEST_F(HostMaterial, WhatTheShaderReadsMustBeGivenAsDeclared) {
 }
 
 TEST_F(HostMaterial, WhatNoMaterialFillsIsRefused) {
-    const std::string text = edited("probe.frag", "greedy.frag");
-    auto read = materials::MaterialType::parse(text, "t", hair::functorRegistry());
+    auto read = materials::MaterialType::parse(edited("probe.frag", "greedy.frag"), "t", hair::functorRegistry());
     ASSERT_TRUE(read) << read.error().text();
-    EXPECT_NE(said(text).find("greedy.frag: error S030: the uniform block has 'table'"), std::string::npos)
-        << said(text);
+    std::size_t asked = 0;
+    const Diagnostics found = hair::checkShaders(**read, [&](const std::string& file) {
+        ++asked;
+        const auto own = shaders::embeddedShader(file);
+        const auto code = own.empty() ? hair::Renderer::shaderCode(file) : own;
+        auto made = Gpu::get().device.createShaderModule({.label = file, .code = {code.begin(), code.end()}});
+        return made ? *made : rhi::ShaderModule();
+    });
+    EXPECT_EQ(asked, 3U) << "hair.vert once, greedy.frag, and probe.frag of the second use";
+    const char* const wanted[] = {
+        "greedy.frag: error S030: the uniform block has 'table', which no input of the material type fills",
+        "greedy.frag: error S030: set 2 has a second uniform block, 'second'",
+        "greedy.frag: error S030: 'Rows' in set 2 is none of what a material fills",
+        "greedy.frag: error S030: the shader samples 'noiseMap' as another kind of texture than the input, which is "
+        "texture2d"};
+    for (const char* line : wanted)
+        EXPECT_NE(found.text().find(line), std::string::npos) << line << "\n" << found.text();
+    EXPECT_EQ(found.items().size(), std::size(wanted)) << found.text();
 }
 
 TEST_F(HostMaterial, WhatNoShaderReadsIsNoted) {

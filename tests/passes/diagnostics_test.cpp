@@ -327,6 +327,9 @@ TEST(Diagnostics, WhatTheHostDoesWrong) {
               }),
               "D001 D001");
     EXPECT_EQ(failing([](auto& h) { h.extent = {60000, 48, 1}; }), "D002 D002 D002 D002");
+    EXPECT_EQ(failing([](auto& h) { h.maxSide = 200; }), "D002") << "the shadow map";
+    EXPECT_EQ(failing([](auto& h) { h.maxLayers = 1; }), "D002");
+    EXPECT_EQ(failing([](auto& h) { h.maxBytes = 100000; }), "D002");
     HostDescription lent = host();
     lent.imports["Scenery"] = {true};
     EXPECT_EQ(codes((*tree)->compile(lent)->warnings), "H005");

@@ -2,6 +2,8 @@
 // What outlives a pass on a device: heaps that images share, histories, buffers, and the plan itself.
 #include "graph_fixture.hpp"
 
+#include <cmath>
+
 namespace pelage::passes::test {
 namespace {
 
@@ -48,6 +50,32 @@ TEST_F(GraphMemoryTest, ImagesInOneHeapKeepWhatIsStillRead) {
             EXPECT_GE(image.heapBytes, image.bytes) << image.name;
         }
     }
+}
+
+TEST_F(GraphMemoryTest, PoisonShowsWhatAPassLeavesUnwritten) {
+    // The triangle covers half of what "dontCare" promises to cover; the other half must not look like anything.
+    const std::string text = R"json({
+  "format": "pelage.passtree/1", "name": "Half", "views": { "main": { "count": 1 } }, "drawLists": ["all"],
+  "attachments": { "Byte": { "format": "RGBA8Unorm", "size": { "frame": 1 } },
+                   "Float": { "format": "RGBA32Float", "size": { "frame": 1 } } },
+  "passes": [
+    { "name": "Byte", "kind": "raster", "view": "main", "drawList": "all",
+      "slots": { "color": { "access": "write", "as": "color", "load": "dontCare" } },
+      "connect": { "color": "att.Byte" } },
+    { "name": "Float", "kind": "raster", "view": "main", "drawList": "all",
+      "slots": { "color": { "access": "write", "as": "color", "load": "dontCare" } },
+      "connect": { "color": "att.Float" } }
+  ],
+  "exports": { "Byte": { "from": "Byte.color" }, "Float": { "from": "Float.color" } } })json";
+    Graph made(
+        {.device = gpu.device, .shaders = [this](const std::string& file) { return shader(file); }, .poison = true});
+    mustBuild(made, text, {.extent = {8, 8, 1}});
+    frame(made);
+    EXPECT_EQ(read<Pixel>(made.exported("Byte"))[7 * 8], (Pixel{64, 128, 255, 255}));
+    EXPECT_EQ(read<Pixel>(made.exported("Byte"))[7], (Pixel{255, 0, 255, 255}));
+    using Texel = std::array<float, 4>;
+    EXPECT_EQ(read<Texel>(made.exported("Float"))[7 * 8], (Texel{0.25F, 0.5F, 1.0F, 1.0F}));
+    EXPECT_TRUE(std::isnan(read<Texel>(made.exported("Float"))[7][0]));
 }
 
 TEST_F(GraphMemoryTest, ExportOfTheLastFrameStaysUntilTheNextIsRecorded) {
@@ -180,20 +208,21 @@ TEST_F(GraphMemoryTest, BuffersAreClearedCountedCopiedAndRemembered) {
     EXPECT_EQ(read<std::uint32_t>(made.exportedBuffer("Values"), count), expected);
 }
 
-TEST_F(GraphMemoryTest, RasterPassesDrawFromATransientBuffer) {
+TEST_F(GraphMemoryTest, RasterPassesDrawFromTransientBuffersAsManyAsTheySay) {
     Graph made = graph();
     mustBuild(made, R"json({
   "format": "pelage.passtree/1", "name": "Vertices", "views": { "main": { "count": 1 } }, "drawLists": ["all"],
-  "attachments": { "Corners": { "kind": "buffer", "bytes": 48 },
+  "attachments": { "Corners": { "kind": "buffer", "bytes": 48 }, "Count": { "kind": "buffer", "bytes": 16 },
                    "Out": { "format": "RGBA8Unorm", "size": { "frame": 1 } } },
   "passes": [
     { "name": "Make", "kind": "compute", "shader": "corners.comp",
-      "slots": { "corners": { "access": "write", "as": "storage", "bind": "b_corners" } },
-      "connect": { "corners": "att.Corners" } },
+      "slots": { "corners": { "access": "write", "as": "storage", "bind": "b_corners" },
+                 "count": { "access": "write", "as": "storage", "bind": "b_arguments" } },
+      "connect": { "corners": "att.Corners", "count": "att.Count" } },
     { "name": "Draw", "kind": "raster", "view": "main", "drawList": "all",
-      "slots": { "corners": { "access": "read", "as": "vertex" },
+      "slots": { "corners": { "access": "read", "as": "vertex" }, "count": { "access": "read", "as": "indirect" },
                  "color": { "access": "write", "as": "color", "clear": [0, 0, 0, 0] } },
-      "connect": { "corners": "Make.corners", "color": "att.Out" } }
+      "connect": { "corners": "Make.corners", "count": "Make.count", "color": "att.Out" } }
   ],
   "exports": { "Out": { "from": "Draw.color" } } })json",
               {.extent = {8, 8, 1}});
@@ -207,7 +236,7 @@ TEST_F(GraphMemoryTest, RasterPassesDrawFromATransientBuffer) {
         context.encoder.setPipeline(value(gpu.device.createRenderPipeline(descriptor)));
         EXPECT_FALSE(context.buffer("color"));
         context.encoder.setVertexBuffer(0, context.buffer("corners"));
-        context.encoder.draw(3);
+        context.encoder.drawIndirect(context.buffer("count"));
         return {};
     }));
     run(encoder);
@@ -226,25 +255,28 @@ TEST_F(GraphMemoryTest, APlanIsMadeOnceForWhatDoesNotChange) {
     const rhi::Texture picture = made.exported("Sum");
     ASSERT_TRUE(made.build(**tree, host));
     EXPECT_EQ(made.exported("Sum"), picture) << "nothing was made anew";
+    made.invalidate();
+    ASSERT_TRUE(made.build(**tree, host));
+    EXPECT_EQ(made.plansMade(), 2U) << "asked for";
     // Each part of what a plan is made from makes another.
     host.extent = {9, 8, 1};
     ASSERT_TRUE(made.build(**tree, host));
-    EXPECT_EQ(made.plansMade(), 2U);
+    EXPECT_EQ(made.plansMade(), 3U);
     host.settings["spare"] = {SettingValue::Type::Bool, 1, {}};
     ASSERT_TRUE(made.build(**tree, host));
-    EXPECT_EQ(made.plansMade(), 3U);
+    EXPECT_EQ(made.plansMade(), 4U);
     host.depth = DepthConvention::Conventional;
     ASSERT_TRUE(made.build(**tree, host));
-    EXPECT_EQ(made.plansMade(), 4U);
+    EXPECT_EQ(made.plansMade(), 5U);
     const auto again = PassTree::parse(accumulation, "accumulation.pass.json");
     ASSERT_TRUE(made.build(**again, host));
-    EXPECT_EQ(made.plansMade(), 5U) << "a tree that was read again is another tree";
+    EXPECT_EQ(made.plansMade(), 6U) << "a tree that was read again is another tree";
     host.extent = {0, 8, 1};
     EXPECT_FALSE(made.build(**again, host));
-    EXPECT_EQ(made.plansMade(), 5U);
+    EXPECT_EQ(made.plansMade(), 6U);
     host.extent = {9, 8, 1};
     ASSERT_TRUE(made.build(**again, host));
-    EXPECT_EQ(made.plansMade(), 5U) << "a build that failed leaves the plan as it was";
+    EXPECT_EQ(made.plansMade(), 6U) << "a build that failed leaves the plan as it was";
 }
 
 TEST_F(GraphMemoryTest, AnImportThatIsNotAsPlannedIsAnError) {

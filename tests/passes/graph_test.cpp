@@ -229,6 +229,10 @@ TEST_F(GraphTest, AFailedBuildKeepsTheOldPicture) {
                 "\"access\": \"read\", \"as\": \"sampled\", \"bind\": \"u_sauce\""),
          "S010 S011"},
         {edited(triangleTree, "\"shader\": \"tint.frag\"", "\"shader\": \"average.frag\""), "S012"},
+        {edited(triangleTree, "\"shader\": \"tint.frag\"", "\"shader\": \"two_targets.frag\""), "S013"},
+        {edited(triangleTree, "\"Drawn\": { \"format\": \"RGBA8Unorm\", \"size\": { \"frame\": 1 }",
+                "\"Drawn\": { \"format\": \"RGBA8Unorm\", \"size\": { \"square\": 32768 }"),
+         "D002"},
     };
     for (const auto& [text, codes] : faults) {
         SCOPED_TRACE(codes);

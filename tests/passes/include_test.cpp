@@ -21,7 +21,7 @@ TextReader reader(const Texts& texts, std::vector<std::string>* asked = nullptr)
     };
 }
 
-// wholeGrammar() in three files: what is declared, the shared template, and the passes that use them.
+// wholeGrammar() in three files: what is declared, the passes with their template, and what is wanted of them.
 Texts inThree() {
     const json::Value whole = readJson(wholeGrammar());
     const auto part = [&](std::initializer_list<std::string_view> keys, const std::string& include) {
@@ -31,8 +31,9 @@ Texts inThree() {
         }
         return text + "\n}\n";
     };
-    return {{"frames/main.pass.json", part({"name", "passes", "exports"}, R"(, "include": ["parts/kit.pass.json"])")},
-            {"frames/parts/kit.pass.json", part({"templates", "drawLists"}, R"(, "include": ["declared.pass.json"])")},
+    return {{"frames/main.pass.json", part({"name", "exports"}, R"(, "include": ["parts/kit.pass.json"])")},
+            {"frames/parts/kit.pass.json",
+             part({"templates", "drawLists", "passes"}, R"(, "include": ["declared.pass.json"])")},
             {"frames/parts/declared.pass.json", part({"settings", "imports", "views", "attachments"}, "")}};
 }
 
@@ -76,14 +77,17 @@ TEST(Include, MessagesNameTheFileLineAndColumn) {
     EXPECT_EQ(fault("frames/parts/declared.pass.json", "256", "255", "255").substr(0, 4), "P005");
     EXPECT_EQ(fault("frames/parts/declared.pass.json", "\"host.Scene\"", "\"host.Scne\"", "\"host.Scne\"").substr(0, 4),
               "P031");
-    EXPECT_EQ(fault("frames/main.pass.json", "\"Blur.color\"", "\"Blr.color\"", "\"Blr.color\"").substr(0, 4), "P016");
+    EXPECT_EQ(fault("frames/parts/kit.pass.json", "\"Blur.color\"", "\"Blr.color\"", "\"Blr.color\"").substr(0, 4),
+              "P016");
     EXPECT_EQ(
         fault("frames/parts/declared.pass.json", "\"RGBA16Float\"", "\"RGBA8Unorm\"", "\"Scene\": {").substr(0, 4),
         "H002");
+    EXPECT_EQ(fault("frames/parts/kit.pass.json", "lights > 0", "light > 0", "light > 0").substr(0, 4), "E002");
+    EXPECT_EQ(fault("frames/main.pass.json", "\"Keep.to\"", "\"Kep.to\"", "\"Kep.to\"").substr(0, 4), "P016");
     // A place in a hint that is in another file says which.
     Texts texts = inThree();
-    texts["frames/main.pass.json"] =
-        edited(texts["frames/main.pass.json"], R"("color": "att.Half")", R"("color": "host.Scene")");
+    std::string& kit = texts["frames/parts/kit.pass.json"];
+    kit = edited(kit, R"("color": "att.Half")", R"("color": "host.Scene")");
     const auto written = parse(texts);
     ASSERT_FALSE(written);
     const json::Place place = placeOf(texts["frames/parts/declared.pass.json"], "\"Scene\": {");
@@ -133,9 +137,9 @@ TEST(Include, CirclesDoubleNamesAndMissingFilesAreErrors) {
     }
     // Passes are a list: a second one of a name is the same fault as in one file, and the hint knows both files.
     Texts pass = inThree();
-    pass["frames/parts/kit.pass.json"] =
-        edited(pass["frames/parts/kit.pass.json"],
-               "\"drawLists\":", R"("passes": [{ "name": "Keep", "kind": "copy", "connect": {} }], "drawLists":)");
+    pass["frames/main.pass.json"] =
+        edited(pass["frames/main.pass.json"],
+               "\"exports\":", R"("passes": [{ "name": "Keep", "kind": "copy", "connect": {} }], "exports":)");
     const auto second = parse(pass);
     ASSERT_FALSE(second);
     EXPECT_NE(second.error().text().find("P002"), std::string::npos) << second.error().text();

@@ -203,14 +203,16 @@ TEST(Plan, SizesAndAlignmentsComeFromTheHost) {
 
 TEST(Plan, WhoIsReadByTheNextFrameIsNotCulled) {
     // Nobody in this frame wants Accum: only the next one does, through its history.
-    std::string text = edited(moreGrammar(), R"("last":  { "access": "read", "as": "sampled", "bind": "u_last" },)", "");
+    std::string text =
+        edited(moreGrammar(), R"("last":  { "access": "read", "as": "sampled", "bind": "u_last" },)", "");
     text = edited(text, R"("last": "history.Accum", )", "");
     text = edited(text, R"("passes": [)", R"("passes": [
         { "name": "Show", "kind": "fullscreen", "shader": "show.frag",
           "slots": { "last": { "access": "read", "as": "sampled", "bind": "u_last" },
                      "color": { "access": "write", "as": "color" } },
           "connect": { "last": "history.Accum", "color": "att.Shown" } },)");
-    text = edited(text, R"("attachments": {)", R"("attachments": { "Shown": { "format": "RGBA8Unorm", "size": { "frame": 1 } },)");
+    text = edited(text, R"("attachments": {)",
+                  R"("attachments": { "Shown": { "format": "RGBA8Unorm", "size": { "frame": 1 } },)");
     text = edited(text, R"("Color": { "from": "Blend.color" })", R"("Color": { "from": "Show.color" })");
     const Plan made = plan(text, moreHost());
     EXPECT_EQ(passNames(made), (Names{"Show", "Count", "Move", "Keep", "Draw", "Blend"})) << "and need not be first";
@@ -255,8 +257,23 @@ TEST(Plan, ParametersOfAClassComeFromTheFileSettingsAndDefaults) {
                                     [](const PlanPass& pass) { return pass.passClass == "Blend"; });
     ASSERT_NE(found, made.passes.end());
     EXPECT_EQ(found->kind, PassKind::Raster);
-    EXPECT_EQ(found->parameters,
-              (std::vector<PlanParameter>{{"weight", 0.25, ""}, {"style", 1, "hard"}, {"glow", 1, ""}, {"gain", 2, ""}}));
+    EXPECT_EQ(found->parameters, (std::vector<PlanParameter>{
+                                     {"weight", 0.25, ""}, {"style", 1, "hard"}, {"glow", 1, ""}, {"gain", 2, ""}}));
+}
+
+TEST(Plan, AToolMayTrustClassesItDoesNotKnow) {
+    HostDescription lent = moreHost();
+    lent.classes.clear();
+    const auto tree = PassTree::parse(moreGrammar(), "tree.pass.json");
+    ASSERT_TRUE(tree) << tree.error().text();
+    EXPECT_EQ((*tree)->passClasses(), Names{"Blend"});
+    EXPECT_EQ(codes((*tree)->compile(lent).error()), "P053");
+    lent.trustClasses = true;
+    const Plan made = plan(moreGrammar(), lent);
+    const auto found = std::find_if(made.passes.begin(), made.passes.end(),
+                                    [](const PlanPass& pass) { return pass.passClass == "Blend"; });
+    ASSERT_NE(found, made.passes.end());
+    EXPECT_EQ(found->kind, PassKind::Raster) << "it has a color slot";
 }
 
 TEST(Plan, VersionsNameWhoMadeWhat) {

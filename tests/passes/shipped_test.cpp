@@ -156,12 +156,64 @@ TEST(ShippedFrame, PlanDoesNotDependOnTheOrderInTheFile) {
     }
 }
 
+TEST(ShippedFrame, NothingLiesCloserThanItsLivesAllow) {
+    // Depth and ColorMS are alive at once and are four fifths of the whole: the heap is the peak, not less.
+    const Outcome made = run(shipped());
+    EXPECT_EQ(made.plan.heapBytes, made.plan.peakBytes);
+    EXPECT_LT(made.plan.heapBytes, made.plan.naiveBytes);
+}
+
+TEST(ShippedFrame, AnExportNobodyWantsCostsNothing) {
+    HostDescription host = frame();
+    const Plan all = run(shipped(), host).plan;
+    host.unwantedExports = {"Depth"};
+    const Outcome less = run(shipped(), host);
+    EXPECT_EQ(less.codes, "");
+    EXPECT_EQ(passNames(less.plan), passNames(all)) << "other passes test against the depth";
+    EXPECT_EQ(less.plan.exports.count("Depth"), 0U);
+    EXPECT_EQ(resource(less.plan, "att.Depth")->lastPass, 3U);
+    host.extent = {1920, 1080, 1};
+    const Plan large = run(shipped(), host).plan;
+    host.unwantedExports.clear();
+    EXPECT_LT(large.heapBytes, run(shipped(), host).plan.heapBytes);
+    host.unwantedExports = {"LdrColor"};
+    const Outcome linear = run(shipped(), host);
+    EXPECT_EQ(linear.codes, "") << linear.text;
+    EXPECT_EQ(linear.plan.culled, Names{"Display: no export needs its result"});
+    host.unwantedExports = {"Dept"};
+    EXPECT_EQ(run(shipped(), host).codes, "H005");
+}
+
+// Editors show these sentences, and the documentation of the grammar is made of them.
+TEST(Schema, EveryMemberHasADescription) {
+    std::size_t members = 0;
+    const std::function<void(const json::Value&, const std::string&)> walk = [&](const json::Value& value,
+                                                                                 const std::string& path) {
+        if (const json::Value* properties = value.find("properties"); properties && properties->isObject()) {
+            for (const json::Member& member : properties->members) {
+                const json::Value* text = member.value.find("description");
+                EXPECT_TRUE(text && text->string.size() > 3) << path << "/" << member.key;
+                ++members;
+            }
+        }
+        for (const json::Member& member : value.members) walk(member.value, path + "/" + member.key);
+        for (const json::Value& element : value.elements) walk(element, path);
+    };
+    walk(readJson(std::string(shippedText("passtree.schema.json"))), "");
+    EXPECT_GT(members, 80U);
+}
+
 TEST(ShippedFrame, NamesForTheHost) {
     const auto tree = PassTree::parse(shipped(), "hair_frame.pass.json");
     ASSERT_TRUE(tree) << tree.error().text();
     EXPECT_EQ((*tree)->name(), "HairFrame");
     EXPECT_EQ((*tree)->drawLists(), (Names{"shadow", "depth", "forward", "blend"}));
     EXPECT_EQ((*tree)->exports(), (Names{"HdrColor", "LdrColor", "Depth"}));
+    EXPECT_TRUE((*tree)->passClasses().empty());
+    ASSERT_EQ((*tree)->imports().size(), 2U);
+    EXPECT_EQ((*tree)->imports()[0].name, "EnvIrradiance");
+    EXPECT_TRUE((*tree)->imports()[0].cube && (*tree)->imports()[0].optional);
+    EXPECT_TRUE((*tree)->imports()[1].buffer && !(*tree)->imports()[1].optional);
     ASSERT_EQ((*tree)->settings().size(), 4U);
     EXPECT_EQ((*tree)->settings()[0].name, "shadowSize");
     EXPECT_EQ((*tree)->settings()[0].defaultValue.number, 1024U);

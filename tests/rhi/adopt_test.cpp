@@ -263,6 +263,30 @@ TEST_F(Adopt, NothingIsDestroyedBeforeTheHostSaysThatItsFrameIsFinished) {
     EXPECT_LT(device.memoryStatistics().usedBytes, std::uint64_t{1} << 20);
 }
 
+TEST_F(Adopt, TheHostsWriteOfThisFrameIsWaitedForInEveryFrame) {
+    HostDevice host(gpu);
+    const auto device = value(vk::adopt(host.descriptor()));
+    const auto usage = BufferUsage::CopyDst | BufferUsage::CopySrc;
+    const auto owner = value(device.createBuffer({.label = "owner", .size = 64, .usage = usage}));
+    const auto wrapped =
+        value(vk::wrapBuffer(device, vk::buffer(owner), {.label = "host's", .size = 64, .usage = usage}));
+    const auto to = value(device.createBuffer({.label = "to", .size = 64, .usage = usage}));
+    for (int i = 0; i < 3; ++i) {
+        auto encoder = device.createCommandEncoder();
+        encoder.copyBufferToBuffer(wrapped, 0, to, 0, 64);
+        const auto commands = value(encoder.finish());
+        HostFrame frame(host);
+        host.load<PFN_vkCmdFillBuffer>("vkCmdFillBuffer")(frame.commands, vk::buffer(owner), 0, 64, 5);
+        // A barrier of an earlier frame must not be taken for one that stands after this fill.
+        const vk::SharedBuffer buffers[] = {
+            {wrapped, {VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, VK_ACCESS_2_TRANSFER_WRITE_BIT}, {}}};
+        const auto ticket = value(vk::encodeInto(device, frame.commands, {&commands, 1}, {}, buffers));
+        frame.submitAndWait();
+        vk::finished(device, ticket);
+        EXPECT_EQ(commands.counters().barriers, 1U) << "frame " << i;
+    }
+}
+
 TEST_F(Adopt, WrittenBytesTravelInTheHostsCommandBuffer) {
     HostDevice host(gpu);
     const auto device = value(vk::adopt(host.descriptor()));

@@ -77,6 +77,13 @@ TEST_F(Check, ADrawListThatNoTreeHasIsNamed) {
                                        R"({ "format": "pelage.material/1", "type": "mine.materialtype.json",
                                             "typeVersion": 3, "values": {} })");
     EXPECT_EQ(run({"check", material}).errorLines(), 1U);
+    write("a.hair", hairFile(8, 4));
+    const std::string scene = write("mine.scene.json", R"({ "format": "pelage.scene/1", "objects": [
+        { "name": "hair", "asset": "a.hair", "material": "mine.material.json" } ] })");
+    const RunResult drawn = run({"check", scene});
+    EXPECT_EQ(drawn.exitCode, 0);
+    EXPECT_NE(drawn.err.find("mine.materialtype.json"), std::string::npos) << drawn.err;
+    EXPECT_NE(drawn.err.find("M017"), std::string::npos) << drawn.err;
 }
 
 TEST_F(Check, MigrateRewritesOlderMaterialsAndLeavesOthersAlone) {

@@ -36,7 +36,6 @@ public:
         State state() const { return state_.load(std::memory_order_acquire); }
         const rhi::RenderPipeline& pipeline() const { return pipeline_; }  // Ready
         const rhi::Error& error() const { return error_; }                 // Failed
-        std::uint64_t key() const { return key_; }
 
     private:
         friend class Pipelines;

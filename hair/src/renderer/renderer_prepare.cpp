@@ -23,6 +23,9 @@ Outcome<void> Renderer::State::buildGraph(const Scene& scene, const FrameSetting
     }
     for (const auto& [name, texture] : settings.imports)
         if (texture) wanted.imports[name] = {true, texture.format(), texture.size(), texture.sampleCount()};
+    // Nobody can ask this renderer for its depth, so that need not outlive the passes that test against it.
+    for (const std::string& name : tree->exports())
+        if (name == "Depth") wanted.unwantedExports.push_back(name);
     shadowSize = 1;
     shadowLights = 0;
     for (const passes::SettingInfo& info : tree->settings()) {

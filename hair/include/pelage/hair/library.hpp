@@ -25,7 +25,6 @@ public:
     /// How material() finds types and parents, for others that read material files. Valid while the library is.
     materials::Material::TypeSource typesFor(const std::string& materialFile);
     materials::Material::ParentSource parentSource() const;
-    const materials::FunctorRegistry& functors() const { return functors_; }
     /// "hair_frame" or a path to a *.pass.json.
     Checked<std::shared_ptr<const passes::PassTree>> passTree(const std::string& nameOrPath);
     std::vector<std::string> presetNames() const;

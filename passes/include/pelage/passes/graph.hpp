@@ -50,6 +50,9 @@ public:
         ShaderSource shaders = {};
         bool measure = true;             // timestamps and statistics per pass
         PassClassRegistry classes = {};  // that trees may name
+        /// For finding faults: paints each image of the heap that can be a target before it begins in a frame (not a
+        /// number, or magenta), so that what a pass leaves unwritten shows. Costs a render pass for each layer.
+        bool poison = false;
     };
     Graph() = default;
     explicit Graph(Descriptor descriptor);
@@ -60,6 +63,8 @@ public:
     /// `host` are taken to answer as they did. What an attachment with a history remembers survives a new plan in which
     /// it has the same shape.
     Checked<void> build(const PassTree& tree, const HostDescription& host);
+    /// The next build() plans anew although nothing it can see has changed: shaders were compiled again, say.
+    void invalidate() { stale_ = true; }
     const Plan& plan() const;
     bool valid() const { return state_ != nullptr; }
     /// How many plans were made by builds that worked.
@@ -84,6 +89,7 @@ private:
     std::shared_ptr<State> state_;
     Descriptor descriptor_;
     std::uint64_t plansMade_ = 0;
+    bool stale_ = false;
 };
 
 }  // namespace pelage::passes

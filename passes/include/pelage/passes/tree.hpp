@@ -49,11 +49,11 @@ struct ImportDescription {
     bool operator==(const ImportDescription&) const = default;
 };
 
-/// What a tree asks the host to lend.
+/// What a tree asks a host to lend.
 struct ImportInfo {
     std::string name = {};
-    bool isBuffer = false, optional = false;
-    std::vector<rhi::TextureFormat> formats = {};  // those it accepts; empty: any
+    bool buffer = false, cube = false, optional = false;
+    std::vector<rhi::TextureFormat> formats = {};  // that the tree accepts; empty: any
     std::vector<std::uint32_t> samples = {};       // the same
 };
 
@@ -88,14 +88,24 @@ struct HostDescription {
     DepthConvention depth = DepthConvention::Reversed;
     std::map<std::string, SettingValue> settings = {};      // those that differ from the defaults
     std::map<std::string, ImportDescription> imports = {};  // by name
+    /// Exports that this host never looks at: as if the file did not have them, so that what only they need is culled
+    /// (without a warning) and their images give their memory back early. A name the tree lacks is a warning (H005).
+    std::vector<std::string> unwantedExports = {};
     /// Whether the device can make such an image; decides between "format" and "formatFallbacks". Empty: it can.
     /// Graph::build fills it in.
     std::function<bool(rhi::TextureFormat, rhi::TextureUsage, std::uint32_t samples)> supports = {};
+    /// What the device allows of an image's sides and layers, and of the bytes of a buffer or of the heap; more is
+    /// D002. Graph::build lowers the first two to what its device allows.
+    std::uint32_t maxSide = 32768, maxLayers = 256;
+    std::uint64_t maxBytes = 1ULL << 40;
     /// What a transient image takes in a heap. Empty: its texels' bytes, rounded up to 64 KiB. Graph::build fills it
     /// in.
     std::function<MemoryNeed(const PlanResource&)> memory = {};
     /// Pass classes that a file may name. Graph::build fills it in from its registry.
     std::vector<PassClassInfo> classes = {};
+    /// For tools that look at trees of hosts they do not know: a class that is not in `classes` is taken to be one
+    /// whose kind its slots tell, and its parameters are not looked at.
+    bool trustClasses = false;
 };
 
 struct Plan;
@@ -118,9 +128,10 @@ public:
     /// no files and not listed.
     const std::vector<std::string>& files() const;
     const std::vector<SettingInfo>& settings() const;
-    std::vector<ImportInfo> imports() const;
     std::vector<std::string> drawLists() const;
     std::vector<std::string> exports() const;
+    std::vector<ImportInfo> imports() const;
+    std::vector<std::string> passClasses() const;  // those that its passes name
     const Diagnostics& warnings() const;
 
     /// Links and schedules. All faults at once; warnings come with the plan.

@@ -45,7 +45,8 @@ struct DeviceDescriptor {
     Feature optionalFeatures = Feature::WideLines | Feature::PipelineStatistics | Feature::Timestamps;
     /// Errors that no error scope caught. Default: written to the instance's onMessage as an Error.
     std::function<void(const Error&)> onUncapturedError = {};
-    /// Called once, with the first error that says so; every call afterwards fails with DeviceLost and does nothing.
+    /// Called once, with the first error that says so, maybe inside a lock of the device: do not call it from there.
+    /// Submissions and writes afterwards fail with DeviceLost and do nothing.
     std::function<void(const Error&)> onDeviceLost = {};
 };
 
@@ -59,6 +60,8 @@ class Device;
 class Queue {
 public:
     Queue() = default;
+    /// A submission that the driver refuses, for whatever reason, loses the device: what its command buffers would have
+    /// changed is no longer known.
     Result<Submission> submit(std::span<const CommandBuffer> commandBuffers);
     Result<Submission> submit(const CommandBuffer& commandBuffer) { return submit(std::span(&commandBuffer, 1)); }
     /// Copies the bytes now (staging); visible to everything submitted afterwards.
