@@ -143,8 +143,56 @@ void expectOnly(const std::vector<Legal>& all, const Silent& silent) {
     for (const std::string& each : legal) EXPECT_EQ(silent.count(each), 1U) << "no longer taken silently: " << each;
 }
 
-const std::vector<Legal> legalInTypes = {};
-const std::vector<Legal> legalInMaterials = {};
+const std::vector<Legal> legalInTypes = {
+    {"$schema", {"\"x\"", "deleted"}, "for editors"},
+    {"description", {"\"x\"", "deleted"}, "for people"},
+    {"functors.#.id", {"\"x\""}, "another name"},
+    {"functors.#.out.*", {"deleted"}, "what it drove has a default or another driver"},
+    {"groups.#.label", {"\"x\"", "deleted"}, "for people; the name when absent"},
+    {"groups.#.name", {"\"x\""}, "another name, of properties that nothing else names"},
+    {"groups.#.properties.#", {"deleted"}, "nothing needs it: what it drove has a default"},
+    {"groups.#.properties.#.default", {"\"x\"", "-1.5", "1"}, "another value in range, or of a texture another file"},
+    {"groups.#.properties.#.default.#", {"-1.5", "1"}, "another component in range; vectors without a range take any"},
+    {"groups.#.properties.#.description", {"\"x\"", "deleted"}, "for people"},
+    {"groups.#.properties.#.enabledWhen", {"deleted"}, "always enabled"},
+    {"groups.#.properties.#.label", {"\"x\"", "deleted"}, "for people; the name when absent"},
+    {"groups.#.properties.#.max", {"1", "deleted"}, "another range around the default, or none"},
+    {"groups.#.properties.#.min", {"-1.5", "1", "deleted"}, "another range around the default, or none"},
+    {"groups.#.properties.#.name", {"\"x\""}, "another name, that nothing else says"},
+    {"groups.#.properties.#.softMax", {"-1.5", "1", "deleted"}, "another slider within the range"},
+    {"groups.#.properties.#.softMin", {"-1.5", "1", "deleted"}, "another slider within the range"},
+    {"groups.#.properties.#.step", {"1", "deleted"}, "another slider"},
+    {"groups.#.properties.#.unit", {"deleted"}, "a number without a unit"},
+    {"groups.#.properties.#.visibleWhen", {"deleted"}, "always visible"},
+    {"name", {"\"x\""}, "another name"},
+    {"options.*.max", {"1"}, "another range around the default"},
+    {"presets", {"deleted", "{}"}, "no presets"},
+    {"presets.*", {"deleted", "{}"}, "an empty preset, or none"},
+    {"presets.*.*", {"-1.5", "1", "deleted", "true"}, "another value in range, or the default"},
+    {"shaders.*.drawList", {"\"x\""}, "only the tree knows its lists (M017)"},
+    {"shaders.*.enabled", {"deleted", "true"}, "true when absent"},
+    {"shaders.*.fragment", {"\"x\"", "deleted"}, "only the host knows its shaders; none writes depth only"},
+    {"shaders.*.options", {"[]", "deleted"}, "only the shader knows what it reads (S020)"},
+    {"shaders.*.options.#", {"deleted"}, "only the shader knows what it reads (S020)"},
+    {"shaders.*.state", {"deleted", "{}"}, "the defaults"},
+    {"shaders.*.state.blend", {"deleted"}, "the default"},
+    {"shaders.*.state.cull", {"deleted"}, "the default"},
+    {"shaders.*.state.depthTest", {"deleted"}, "the default"},
+    {"shaders.*.state.depthWrite", {"deleted", "true"}, "the default, or the other value"},
+    {"shaders.*.vertex", {"\"x\""}, "only the host knows its shaders"},
+    {"versionUpdates", {"[]", "deleted"}, "nothing is done to older materials"},
+    {"versionUpdates.#", {"deleted"}, "less is done to older materials"},
+    {"versionUpdates.#.actions.#", {"deleted"}, "less is done to older materials"},
+};
+
+const std::vector<Legal> legalInMaterials = {
+    {"$schema", {"\"x\"", "deleted"}, "for editors"},
+    {"description", {"\"x\"", "deleted"}, "for people"},
+    {"typeVersion", {"1"}, "a version that there was"},
+    {"values", {"{}"}, "all defaults"},
+    {"values.*", {"1", "deleted"}, "another value in range, or the default"},
+    {"values.*.#", {"1"}, "another component in range"},
+};
 
 }  // namespace
 
