@@ -212,6 +212,25 @@ TEST(Fuzz, EveryValueDeletedOrReplaced) {
     EXPECT_GT(tally.edits, 5815U);
 }
 
+// What a validator by structure alone lets through: words in the wrong place, numbers out of what they mean.
+TEST(Fuzz, WhatOnlyMeaningForbidsIsRefused) {
+    struct Case {
+        const char *from, *to, *code;
+    };
+    const std::string frame(shippedText("hair_frame.pass.json"));
+    for (const Case& each : {Case{R"("values": ["1", "4"])", R"("values": ["1", "3", "4"])", "P043"},
+                             Case{R"("values": ["1", "4"])", R"("values": ["1", "few", "4"])", "P043"},
+                             Case{R"("clear": { "depth": "far" })", R"("clear": {})", "J011"},
+                             Case{R"("map": "const.depthFarArray")", R"("map": "depthFarArray")", "P015"},
+                             Case{R"("map": "const.depthFarArray")", R"("map": "Depth.depth")", "P045"},
+                             Case{R"("clear": { "depth": "far" })", R"("clear": { "depth": 1.5 })", "J014"},
+                             Case{R"("size": { "frame": 1 } })", R"("size": { "frame": 1, "scale": 2 } })", "P0"}}) {
+        const auto tree = PassTree::parse(edited(frame, each.from, each.to), "t");
+        ASSERT_FALSE(tree) << each.to;
+        EXPECT_EQ(tree.error().items().front().code.rfind(each.code, 0), 0U) << each.to << "\n" << tree.error().text();
+    }
+}
+
 TEST(Fuzz, NamesExchangedAtRandom) {
     // References and words are swapped among themselves: still well-formed, mostly nonsense.
     Tally tally;
