@@ -54,6 +54,7 @@ Result<void> openDevice(DeviceObject& device) {
             return forward(vulkanError(r, "vkCreatePipelineCache", title));
     }
     device.queue.uploads = std::make_unique<Recording>();
+    device.recordings = std::make_unique<RecordingPool>();
     device.nameObject(VK_OBJECT_TYPE_SEMAPHORE, device.queue.timeline, device.label + " timeline");
     if (!device.adopted) device.nameObject(VK_OBJECT_TYPE_DEVICE, device.handle, device.label);
     return {};

@@ -7,6 +7,7 @@
 #include <functional>
 #include <map>
 
+#include "block_pool.hpp"
 #include "objects.hpp"
 
 #include <pelage/rhi/vulkan.hpp>
@@ -59,6 +60,7 @@ struct StagingChunk {
     std::uint64_t used = 0, value = 0;
 };
 struct Recording;
+struct RecordingPool;
 
 struct QueueState {
     std::mutex mutex;
@@ -66,8 +68,9 @@ struct QueueState {
     VkSemaphore timeline = VK_NULL_HANDLE;
     std::uint64_t submitted = 0;  // the last value given out, to a submission or a host's ticket
     BarrierLog barriers;
-    std::uint64_t signalled = 0;  // the last value that a submission of our own will signal
-    vulkan::QueueLock hostLock;   // held around every call on the queue, inside `mutex`
+    BarrierBatch batch{&barriers};  // for the replay
+    std::uint64_t signalled = 0;    // the last value that a submission of our own will signal
+    vulkan::QueueLock hostLock;     // held around every call on the queue, inside `mutex`
     std::vector<CommandSlot> running, idle;
     std::vector<StagingChunk> staging;
     std::unique_ptr<Recording> uploads;           // writes that the next submission carries
@@ -138,8 +141,8 @@ struct DeviceObject : std::enable_shared_from_this<DeviceObject> {
     std::vector<std::uint64_t> openTickets, openSubmissions;  // not known to be done, ascending
     std::uint64_t lastBegun = 0;
 
-    std::mutex recordingMutex;
-    std::vector<std::unique_ptr<Recording>> recordings;
+    std::unique_ptr<RecordingPool> recordings;
+    std::shared_ptr<BlockPool> blocks = std::make_shared<BlockPool>();
 
     std::mutex poolMutex;
     std::vector<VkDescriptorPool> pools;

@@ -12,9 +12,10 @@ namespace packet = detail::packet;
 ComputePassEncoder CommandEncoder::beginComputePass(const ComputePassDescriptor& descriptor) {
     if (!encoder_) return {};
     auto& e = *encoder_;
-    if (e.ready(EncoderObject::State::Open, "beginComputePass") && e.timestamps(descriptor.timestampWrites))
-        e.beginPass(EncoderObject::State::ComputePass, cat("ComputePass \"", descriptor.label, '"'), descriptor.label,
-                    descriptor.timestampWrites);
+    if (e.ready(EncoderObject::State::Open, "beginComputePass") && e.timestamps(descriptor.timestampWrites)) {
+        e.scope.clear();
+        e.beginPass(EncoderObject::State::ComputePass, descriptor.label, descriptor.timestampWrites);
+    }
     return ComputePassEncoder(encoder_);
 }
 

@@ -309,7 +309,8 @@ Result<CommandBuffer> CommandEncoder::finish() {
         e.device->report(*e.error);
         return detail::forward(*e.error);
     }
-    auto object = std::make_shared<detail::CommandBufferObject>(e.device, "CommandBuffer", e.label);
+    auto object = std::allocate_shared<detail::CommandBufferObject>(
+        detail::PoolAllocator<detail::CommandBufferObject>(e.device->blocks), e.device, "CommandBuffer", e.label);
     object->recording = std::move(e.recording);
     object->counters = e.counters;
     return CommandBuffer(std::move(object));
@@ -321,7 +322,8 @@ const CommandBuffer::Counters& CommandBuffer::counters() const {
 
 CommandEncoder Device::createCommandEncoder(std::string label) const {
     if (!object_) return {};
-    return CommandEncoder(std::make_shared<EncoderObject>(object_, std::move(label)));
+    return CommandEncoder(std::allocate_shared<EncoderObject>(detail::PoolAllocator<EncoderObject>(object_->blocks),
+                                                              object_, std::move(label)));
 }
 
 }  // namespace pelage::rhi

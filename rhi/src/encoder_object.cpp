@@ -85,7 +85,8 @@ void EncoderObject::fail(const Error& first, std::string innermost) {
     if (error) return;
     error = first;
     if (!innermost.empty()) error->context.push_back(std::move(innermost));
-    if (state == State::RenderPass || state == State::ComputePass) error->context.push_back(pass.context);
+    if (state == State::RenderPass || state == State::ComputePass)
+        error->context.push_back(cat(state == State::RenderPass ? "RenderPass \"" : "ComputePass \"", pass.label, '"'));
     error->context.push_back(cat("CommandEncoder \"", label, '"'));
 }
 
@@ -175,9 +176,14 @@ void EncoderObject::setPushConstants(std::uint32_t offset, std::span<const std::
     pass.pushDirty = true;
 }
 
+void EncoderObject::beginLabel(std::string_view text) {
+    add(packet::BeginLabel{static_cast<std::uint32_t>(recording.labels.size())});
+    recording.labels += text;
+    recording.labels += '\0';
+}
+
 void EncoderObject::pushDebugGroup(std::string_view text) {
-    recording.labels.emplace_back(text);
-    add(packet::BeginLabel{static_cast<std::uint32_t>(recording.labels.size() - 1)});
+    beginLabel(text);
     ++(state == State::Open ? debugGroups : pass.debugGroups);
 }
 
@@ -222,15 +228,15 @@ bool EncoderObject::timestamps(const std::optional<TimestampWrites>& writes) {
     return true;
 }
 
-void EncoderObject::beginPass(State next, std::string context, const std::string& passLabel,
-                              const std::optional<TimestampWrites>& writes) {
-    pass = PassState{};
-    pass.context = std::move(context);
-    pass.timestamps = writes;
+void EncoderObject::beginPass(State next, std::string_view passLabel, const std::optional<TimestampWrites>& writes) {
+    pass.reset();
+    pass.label = passLabel;
+    if (writes) {
+        pass.timestamps = writes->querySet.get();
+        pass.endTimestamp = writes->endOfPassWriteIndex;
+    }
     state = next;
-    scope.clear();
-    recording.labels.push_back(passLabel);
-    add(packet::BeginLabel{static_cast<std::uint32_t>(recording.labels.size() - 1)});
+    beginLabel(passLabel);
     if (writes && writes->beginningOfPassWriteIndex)
         add(packet::Timestamp{writes->querySet.get(), *writes->beginningOfPassWriteIndex, true});
 }
@@ -240,11 +246,10 @@ void EncoderObject::endPass() {
         fail(invalid(ErrorCode::EncoderState,
                      cat(pass.debugGroups, " debug groups were left open at the end of the pass."))
                  .value());
-    if (pass.timestamps && pass.timestamps->endOfPassWriteIndex)
-        add(packet::Timestamp{pass.timestamps->querySet.get(), *pass.timestamps->endOfPassWriteIndex, false});
+    if (pass.endTimestamp) add(packet::Timestamp{pass.timestamps, *pass.endTimestamp, false});
     add(packet::EndLabel{});
     state = State::Open;
-    pass = PassState{};
+    pass.reset();
 }
 
 bool EncoderObject::indirectArguments(const Buffer& buffer, std::uint64_t offset, std::uint64_t size,

@@ -1,64 +1,11 @@
 // SPDX-License-Identifier: MIT
-// The state of an encoder while it records.
+// The recorder behind the handles.
 #pragma once
 
 #include "device_object.hpp"
-#include "pointer_map.hpp"
 #include "recording.hpp"
 
 namespace pelage::rhi::detail {
-
-/// Merges the uses of one scope and finds conflicts.
-class ScopeBuilder {
-public:
-    /// The use that conflicts, or null.
-    const Use* add(const Use& use);
-    /// Moves the merged uses to the end of `to`; overlapping parts of one texture are split first.
-    packet::Scope take(std::vector<Use>& to);
-    void clear();
-
-private:
-    std::vector<Use> uses_;
-    std::vector<std::uint32_t> heads_;  // the first use of each object, in the order of use
-    PointerMap first_;
-};
-
-/// "draw #3", spelled out only when something is wrong.
-struct CommandName {
-    std::string_view word = {};
-    std::uint32_t number = 0;
-    std::string text() const { return word.empty() ? std::string() : cat(word, number); }
-};
-
-struct BoundGroup {
-    BindGroupObject* group = nullptr;  // kept by the recording, like everything below
-    std::vector<std::uint32_t> offsets;
-    bool dirty = false;
-};
-
-/// What a pass has set so far.
-struct PassState {
-    PipelineObject* pipeline = nullptr;
-    std::vector<BoundGroup> groups;
-    PipelineLayoutObject* boundLayout = nullptr;
-    std::array<std::byte, 256> push = {};
-    bool pushDirty = true, groupsChanged = true;
-    struct Vertex {
-        BufferObject* buffer = nullptr;
-        std::uint64_t offset = 0;
-    };
-    std::vector<Vertex> vertexBuffers;
-    Vertex index;
-    IndexFormat indexFormat = IndexFormat::Uint32;
-    std::uint32_t commands = 0;  // draws or dispatches, for messages
-    std::uint32_t debugGroups = 0;
-    std::size_t scopePacket = 0;
-    packet::Scope lastDispatchScope;
-    bool reuseScope = false;
-    PointerMap merged;  // groups whose uses are in the scope
-    std::optional<TimestampWrites> timestamps;
-    std::string context;
-};
 
 struct EncoderObject {
     explicit EncoderObject(std::shared_ptr<DeviceObject> owner, std::string name)
@@ -99,9 +46,9 @@ struct EncoderObject {
     bool flushBindings(VkPipelineBindPoint point, VkPipelineStageFlags2 stages, const CommandName& command);
     /// Checks where indirect arguments lie and takes their buffer into the scope.
     bool indirectArguments(const Buffer& buffer, std::uint64_t offset, std::uint64_t size, const CommandName& command);
-    void beginPass(State state, std::string context, const std::string& passLabel,
-                   const std::optional<TimestampWrites>& writes);
+    void beginPass(State state, std::string_view passLabel, const std::optional<TimestampWrites>& writes);
     void endPass();
+    void beginLabel(std::string_view text);
 
     std::shared_ptr<DeviceObject> device;
     std::string label;
@@ -109,8 +56,8 @@ struct EncoderObject {
     State state = State::Open;
     std::optional<Error> error;
     std::optional<CommandBuffer> finished;
-    PassState pass;
-    ScopeBuilder scope;
+    PassState& pass = recording.pass;
+    ScopeBuilder& scope = recording.scope;
     CommandBuffer::Counters counters;
     std::uint32_t debugGroups = 0;
 };

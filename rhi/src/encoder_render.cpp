@@ -19,15 +19,16 @@ using State = EncoderObject::State;
 /// Collects the attachments of one pass and checks that they agree.
 struct PassBuilder {
     EncoderObject& e;
-    detail::RenderPassPacket pass;
+    std::string_view label;
+    detail::RenderPassPacket pass = {};
     std::uint32_t samples = 0;
     const detail::TextureViewObject* first = nullptr;
 
     bool stop(ErrorCode code, std::string text) {
-        e.fail(invalid(code, std::move(text)).value(), cat("RenderPass \"", pass.label, '"'));
+        e.fail(invalid(code, std::move(text)).value(), cat("RenderPass \"", label, '"'));
         return false;
     }
-    bool attach(const TextureView& handle, std::string_view what, bool depth, bool resolve) {
+    bool attach(const TextureView& handle, const detail::CommandName& what, bool depth, bool resolve) {
         if (!e.accept(handle, what)) return false;
         const auto& view = *handle.get();
         const auto& t = view.texture->descriptor;
@@ -68,7 +69,7 @@ struct PassBuilder {
         u.range = view.range;
         u.access = detail::accessOf(kind, 0, depth);
         if (e.use(u)) return true;
-        e.error->context.insert(e.error->context.begin(), cat("RenderPass \"", pass.label, '"'));
+        e.error->context.insert(e.error->context.begin(), cat("RenderPass \"", label, '"'));
         return false;
     }
     bool color(const RenderPassColorAttachment& a, std::size_t index);
@@ -81,7 +82,7 @@ bool PassBuilder::color(const RenderPassColorAttachment& a, std::size_t index) {
         pass.colors.push_back(packet);
         return true;
     }
-    if (!attach(a.view, cat("colour attachment ", index), false, false)) return false;
+    if (!attach(a.view, {"colour attachment ", static_cast<std::uint32_t>(index)}, false, false)) return false;
     packet.view = a.view.get();
     packet.load = a.loadOp;
     packet.store = a.storeOp;
@@ -95,7 +96,9 @@ bool PassBuilder::color(const RenderPassColorAttachment& a, std::size_t index) {
                                           static_cast<float>(a.clearValue.b), static_cast<float>(a.clearValue.a)}};
     if (!use(*packet.view, UseKind::ColorAttachment, false)) return false;
     if (a.resolveTarget) {
-        if (!attach(a.resolveTarget, cat("the resolve target of colour attachment ", index), false, true)) return false;
+        if (!attach(a.resolveTarget, {"the resolve target of colour attachment ", static_cast<std::uint32_t>(index)},
+                    false, true))
+            return false;
         packet.resolve = a.resolveTarget.get();
         const auto& target = packet.resolve->texture->descriptor;
         if (packet.view->texture->descriptor.sampleCount == 1 || target.sampleCount != 1)
@@ -113,7 +116,7 @@ bool PassBuilder::color(const RenderPassColorAttachment& a, std::size_t index) {
                        cat(packet.resolve->describe(), " is array layer ", packet.resolve->range.baseLayer,
                            "; this driver resolves only to layer 0 of a texture. Resolve to a texture of its own."))
                        .value(),
-                   cat("RenderPass \"", pass.label, '"'));
+                   cat("RenderPass \"", label, '"'));
             return false;
         }
         if (!use(*packet.resolve, UseKind::ResolveTarget, false)) return false;
@@ -123,7 +126,7 @@ bool PassBuilder::color(const RenderPassColorAttachment& a, std::size_t index) {
 }
 
 bool PassBuilder::depthStencil(const RenderPassDepthStencilAttachment& a) {
-    if (!attach(a.view, "the depth attachment", true, false)) return false;
+    if (!attach(a.view, {"the depth attachment"}, true, false)) return false;
     detail::AttachmentPacket packet;
     packet.view = a.view.get();
     packet.readOnly = a.depthReadOnly;
@@ -150,8 +153,7 @@ RenderPassEncoder CommandEncoder::beginRenderPass(const RenderPassDescriptor& d)
     RenderPassEncoder encoder(encoder_);
     if (!e.ready(State::Open, "beginRenderPass") || !e.timestamps(d.timestampWrites)) return encoder;
     e.scope.clear();
-    PassBuilder builder{e, {}, 0, nullptr};
-    builder.pass.label = d.label;
+    PassBuilder builder{e, d.label};
     const auto limit = e.device->info.limits.maxColorAttachments;
     if (d.colorAttachments.size() > limit) {
         builder.stop(ErrorCode::OutOfRange, cat("The pass has ", d.colorAttachments.size(),
@@ -171,13 +173,11 @@ RenderPassEncoder CommandEncoder::beginRenderPass(const RenderPassDescriptor& d)
         builder.pass.statistics = d.statistics.get();
         builder.pass.statisticsIndex = d.statisticsIndex;
     }
-    auto attachments = std::move(e.scope);
-    e.beginPass(State::RenderPass, cat("RenderPass \"", d.label, '"'), d.label, d.timestampWrites);
-    e.scope = std::move(attachments);
+    e.beginPass(State::RenderPass, d.label, d.timestampWrites);
     e.pass.scopePacket = e.recording.packets.size();
     e.add(packet::Scope{});  // filled in at the end of the pass
     const auto size = builder.pass.size;
-    e.recording.passes.push_back(std::move(builder.pass));
+    e.recording.passes.push_back(builder.pass);
     e.add(packet::BeginRendering{static_cast<std::uint32_t>(e.recording.passes.size() - 1)});
     viewport(e, 0, 0, static_cast<float>(size.width), static_cast<float>(size.height), 0, 1);
     e.add(packet::Scissor{{{0, 0}, {size.width, size.height}}});
@@ -230,7 +230,7 @@ void RenderPassEncoder::setBindGroup(std::uint32_t index, const BindGroup& group
 namespace {
 bool geometryBuffer(EncoderObject& e, const Buffer& buffer, BufferUsage usage, std::uint64_t offset, UseKind kind,
                     const detail::CommandName& what) {
-    if (!e.accept(buffer, what.word, what.number)) return false;
+    if (!e.accept(buffer, what)) return false;
     auto& object = *buffer.get();
     if (!contains(object.descriptor.usage, usage)) {
         e.fail(invalid(ErrorCode::InvalidUsage, cat(object.describe(), " was created without ",

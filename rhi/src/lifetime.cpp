@@ -74,40 +74,6 @@ std::uint64_t DeviceObject::completed() {
     return knownCompleted;
 }
 
-void Recording::clear() {
-    label.clear();
-    packets.clear();
-    uses.clear();
-    passes.clear();
-    bufferRegions.clear();
-    bufferImageRegions.clear();
-    imageRegions.clear();
-    labels.clear();
-    offsets.clear();
-    bytes.clear();
-    references.clear();
-    referenced.clear();
-    weak.clear();
-}
-
-void DeviceObject::takeRecording(Recording& into) {
-    {
-        const std::lock_guard lock(recordingMutex);
-        if (!recordings.empty()) {
-            into = std::move(*recordings.back());
-            recordings.pop_back();
-        }
-    }
-    into.id = nextId++;
-}
-
-void DeviceObject::giveBack(Recording& recording) {
-    recording.clear();
-    const std::lock_guard lock(recordingMutex);
-    if (recordings.size() < 8) recordings.push_back(std::make_unique<Recording>(std::move(recording)));
-    recording = Recording();
-}
-
 void DeviceObject::collect() {
     const std::uint64_t value = completed();
     std::vector<Grave> ready;

@@ -53,7 +53,7 @@ Result<CommandSlot> takeSlot(DeviceObject& device) {
 Result<void> checkBuffers(DeviceObject& device, std::span<const CommandBuffer> commandBuffers) {
     for (std::size_t i = 0; i < commandBuffers.size(); ++i) {
         const auto& c = commandBuffers[i];
-        if (auto ok = needHandle(c, cat("command buffer ", i, " of a submission")); !ok) return ok;
+        if (!c) return needHandle(c, cat("command buffer ", i, " of a submission"));
         if (auto ok = needSameDevice(*c.get(), device); !ok) return ok;
         bool twice = c.get()->submitted;
         for (std::size_t j = 0; j < i; ++j) twice = twice || commandBuffers[j] == c;

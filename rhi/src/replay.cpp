@@ -15,11 +15,11 @@ void Replay::flushBarriers() {
     batch_.clear();
 }
 
-void Replay::beginLabel(const std::string& label) {
+void Replay::beginLabel(const char* label) {
     const auto& instance = *device_.adapter->instance;
     if (!instance.debugUtils || instance.vk.vkCmdBeginDebugUtilsLabelEXT == nullptr) return;
     VkDebugUtilsLabelEXT info = {VK_STRUCTURE_TYPE_DEBUG_UTILS_LABEL_EXT};
-    info.pLabelName = label.c_str();
+    info.pLabelName = label;
     instance.vk.vkCmdBeginDebugUtilsLabelEXT(commands_, &info);
 }
 
@@ -55,14 +55,14 @@ void Replay::beginRendering(const RenderPassPacket& pass) {
         return info;
     };
     if (pass.statistics != nullptr) resetQuery(*pass.statistics, pass.statisticsIndex);
-    std::vector<VkRenderingAttachmentInfo> colors;
+    InlineVector<VkRenderingAttachmentInfo, maxColors> colors;
     for (const auto& c : pass.colors) colors.push_back(attachment(c, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL));
     VkRenderingAttachmentInfo depth = {};
     VkRenderingInfo info = {VK_STRUCTURE_TYPE_RENDERING_INFO};
     info.renderArea = {{0, 0}, {pass.size.width, pass.size.height}};
     info.layerCount = pass.layers;
     info.colorAttachmentCount = static_cast<std::uint32_t>(colors.size());
-    info.pColorAttachments = colors.data();
+    info.pColorAttachments = colors.begin();
     if (pass.depth) {
         depth = attachment(*pass.depth, pass.depth->readOnly ? VK_IMAGE_LAYOUT_DEPTH_STENCIL_READ_ONLY_OPTIMAL
                                                              : VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL);
@@ -123,7 +123,7 @@ void Replay::play(const P& p) {
         const auto& pass = r.passes[p.pass];
         if (pass.statistics != nullptr) f.vkCmdEndQuery(commands_, pass.statistics->handle, pass.statisticsIndex);
     } else if constexpr (std::is_same_v<P, BeginLabel>) {
-        beginLabel(r.labels[p.text]);
+        beginLabel(r.labels.data() + p.text);
     } else if constexpr (std::is_same_v<P, EndLabel>) {
         endLabel();
     } else if constexpr (std::is_same_v<P, BindPipeline>) {
@@ -191,7 +191,7 @@ void Replay::run(const Recording& recording, CommandBuffer::Counters* counters) 
     recording_ = &recording;
     if (counters != nullptr) counters_ = *counters;
     counters_.barriers = 0;
-    beginLabel(recording.label);
+    beginLabel(recording.label.c_str());
     for (const auto& packet : recording.packets) std::visit([this](const auto& p) { play(p); }, packet);
     endLabel();
     if (counters != nullptr) *counters = counters_;

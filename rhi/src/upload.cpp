@@ -97,9 +97,7 @@ bool clashes(const Recording& uploads, const Use& use, const VkBufferCopy& regio
 
 void addUpload(Recording& uploads, const std::shared_ptr<Object>& object, const Use& use, const VkBufferCopy& region,
                packet::Upload upload) {
-    const auto known = uploads.weak.find(object.get());
-    if (known != uploads.weak.end() && known->second.expired()) uploads.dropDead();  // its address is used again
-    uploads.weak[object.get()] = object;
+    uploads.keepWeakly(object);
     if (clashes(uploads, use, region))
         uploads.packets.push_back(packet::Scope{static_cast<std::uint32_t>(uploads.uses.size()), 0});
     for (std::size_t i = uploads.packets.size(); i-- > 0;) {
@@ -174,20 +172,6 @@ Result<void> writeTexture(DeviceObject& device, const TexelCopyTextureInfo& dest
 }
 
 }  // namespace
-
-void Recording::dropDead() {
-    std::unordered_set<const Object*> dead;
-    for (const auto& [object, owner] : weak)
-        if (owner.expired()) dead.insert(object);
-    if (dead.empty()) return;
-    std::erase_if(packets, [&](const Packet& p) {
-        const auto* upload = std::get_if<packet::Upload>(&p);
-        return upload != nullptr && (dead.contains(upload->buffer) || dead.contains(upload->texture));
-    });
-    for (auto& use : uses)
-        if (dead.contains(use.object)) use.object = nullptr;
-    for (const auto* object : dead) weak.erase(object);
-}
 
 }  // namespace detail
 

@@ -95,8 +95,7 @@ void HazardOracle::access(Cell& cell, const Touch& t, const std::string& what, c
     if (t.layout != VK_IMAGE_LAYOUT_UNDEFINED && t.layout != cell.layout)
         hazard("layout: " + command + " wants " + what + " in layout " + std::to_string(t.layout) + ", it is in " +
                std::to_string(cell.layout));
-    if (t.needsContents && !cell.written)
-        hazard("undefined: " + command + " reads " + what + ", which nobody wrote");
+    if (t.needsContents && !cell.written) hazard("undefined: " + command + " reads " + what + ", which nobody wrote");
     const Write& w = cell.write;
     const auto together = [&](std::uint64_t other) { return t.scope != 0 && t.scope == other; };
     if (w.any && !together(w.scope)) {

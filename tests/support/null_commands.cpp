@@ -38,7 +38,10 @@ struct NullDriver::Commands {
         for (const auto& label : labels) text += label + " > ";
         return text + word + " #" + std::to_string(count++);
     }
-    void add(const char* word, std::vector<Touch> touches) {
+    void add(const char* word, std::initializer_list<Touch> touches) {
+        if (driver->keepCommands) list.push_back({where(word), touches, false, {}, {}});
+    }
+    void add(const char* word, std::vector<Touch>&& touches) {
         if (driver->keepCommands) list.push_back({where(word), std::move(touches), false, {}, {}});
     }
 };
@@ -257,6 +260,7 @@ void F::vkCmdSetLineWidth(VkCommandBuffer, float) {}
 std::vector<Touch> F::bindings(const NullDriver::Commands& c, VkPipelineBindPoint point) {
     std::vector<Touch> touches;
     auto& d = *c.driver;
+    if (!d.keepCommands) return touches;
     const auto pipeline = d.pipelines_.find(c.pipelines[point]);
     if (pipeline == d.pipelines_.end()) return touches;
     for (const auto& [place, use] : pipeline->second) {

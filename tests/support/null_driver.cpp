@@ -43,7 +43,7 @@ void NullDriver::destroy(const char* type, std::uint64_t handle) {
         alive_.erase(found);
 }
 VkResult NullDriver::mayFail(const char* call) {
-    calls_.emplace_back(call);
+    if (keepCommands) calls_.emplace_back(call);
     if (failAt_ == 0 || --failAt_ != 0) return VK_SUCCESS;
     failed_ = call;
     return failResult_;

@@ -35,7 +35,7 @@ public:
     const std::vector<std::string>& calls() const { return calls_; }
     std::optional<std::string> failed() const { return failed_; }
     VkDriverId driverId = VK_DRIVER_ID_MESA_RADV;
-    bool keepCommands = true;  // false: command buffers are not looked at
+    bool keepCommands = true;  // false: neither commands nor the names of calls are kept, and nothing is allocated for them
     /// Sees the commands of each submission, in order. `dropBarrier`: the barrier call (counted from 0, since `oracle`
     /// was set) that the oracle does not see.
     HazardOracle* oracle = nullptr;
