@@ -1,23 +1,11 @@
 // SPDX-License-Identifier: MIT
-#include <pelage/json/diagnostic.hpp>
+#include "severity.hpp"
 
 #include <algorithm>
 #include <tuple>
 
 namespace pelage {
 namespace {
-
-std::string_view word(Severity severity) {
-    switch (severity) {
-        case Severity::Note:
-            return "note";
-        case Severity::Warning:
-            return "warning";
-        case Severity::Error:
-            return "error";
-    }
-    return "error";
-}
 
 // One diagnostic stays one line whatever the offending text holds: control characters are written as escapes.
 void appendOnOneLine(std::string& out, std::string_view text) {
@@ -40,6 +28,18 @@ void appendOnOneLine(std::string& out, std::string_view text) {
 
 }  // namespace
 
+std::string_view severityWord(Severity severity) {
+    switch (severity) {
+        case Severity::Note:
+            return "note";
+        case Severity::Warning:
+            return "warning";
+        case Severity::Error:
+            return "error";
+    }
+    return "error";
+}
+
 std::string toString(const Diagnostic& diagnostic) {
     std::string out;
     if (!diagnostic.file.empty()) {
@@ -50,7 +50,7 @@ std::string toString(const Diagnostic& diagnostic) {
         out += std::to_string(diagnostic.line) + ':' + std::to_string(diagnostic.column) + ':';
     }
     if (!out.empty()) out += ' ';
-    out += word(diagnostic.severity);
+    out += severityWord(diagnostic.severity);
     if (!diagnostic.code.empty()) {
         out += ' ';
         appendOnOneLine(out, diagnostic.code);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The compiled graph as text for Graphviz: boxes are passes in their order, ovals are images.
-#include <pelage/passes/tree.hpp>
-
-#include <algorithm>
+#include "plan_text.hpp"
 
 namespace pelage::passes {
 namespace {
@@ -24,23 +22,6 @@ std::string lines(std::initializer_list<std::string> each) {
     return quoted(out);
 }
 
-std::string image(const PlanResource& resource) {
-    if (resource.isBuffer) return "buffer";
-    std::string text = std::to_string(resource.extent.width) + " x " + std::to_string(resource.extent.height);
-    if (resource.layers > 1) text += " x " + std::to_string(resource.layers);
-    text += " " + std::string(rhi::name(resource.format));
-    if (resource.samples > 1) text += ", " + std::to_string(resource.samples) + " samples";
-    return text;
-}
-
-std::string arrow(const PlanSlot& slot, bool writes) {
-    if (!writes) return slot.name;
-    static constexpr std::string_view loads[] = {"load", "clear", "dontCare"};
-    const bool discards = slot.store == rhi::StoreOp::Discard;
-    return slot.name + "\n" + std::string(loads[static_cast<std::size_t>(slot.load)]) +
-           (discards ? ", discard" : ", store");
-}
-
 }  // namespace
 
 std::string Plan::dot() const {
@@ -51,30 +32,41 @@ std::string Plan::dot() const {
         const auto views = viewCounts.find(pass.view);
         const std::string times =
             pass.forEachLayer && views != viewCounts.end() ? std::to_string(views->second) + " layers" : "";
+        const std::string work = !pass.passClass.empty()  ? "class " + pass.passClass
+                                 : !pass.drawList.empty() ? "list " + pass.drawList
+                                                          : pass.shader;
         out += "    " + quoted("pass " + pass.name) + " [shape=box, label=" +
-               lines({std::to_string(i + 1) + ". " + pass.name,
-                      pass.drawList.empty() ? pass.shader : "list " + pass.drawList, times}) +
+               lines({std::to_string(i + 1) + ". " + pass.name, std::string(kindText(pass.kind)), work, times}) +
                "];\n";
     }
     for (std::size_t i = 0; i < resources.size(); ++i) {
         const PlanResource& resource = resources[i];
-        const bool transient = resource.kind == PlanResource::Kind::Transient;
+        const bool own = resource.kind == PlanResource::Kind::Transient || resource.kind == PlanResource::Kind::History;
         const std::string life =
             "passes " + std::to_string(resource.firstPass + 1) + ".." + std::to_string(resource.lastPass + 1);
-        out +=
-            "    " + quoted(resource.name) + " [shape=" + (transient ? "oval" : "hexagon") + ", label=" +
-            lines({resource.name, image(resource), transient ? std::to_string(resource.bytes) + " bytes" : "", life}) +
-            "];\n";
+        const std::string place = resource.heapOffset == notPlaced
+                                      ? ""
+                                      : "heap " + std::to_string(resource.heapOffset) + ".." +
+                                            std::to_string(resource.heapOffset + resource.heapBytes);
+        out += "    " + quoted(resource.name) + " [shape=" + (own ? "oval" : "hexagon") + ", label=" +
+               lines({resource.name, shapeText(resource), own ? byteText(resource.bytes) : "", life, place}) + "];\n";
     }
     for (const PlanPass& pass : passes) {
         for (const PlanSlot& slot : pass.slots) {
             if (slot.resource >= resources.size()) continue;
             const std::string passNode = quoted("pass " + pass.name);
             const std::string imageNode = quoted(resources[slot.resource].name);
-            const bool writes = slot.access != SlotAccess::Read;
-            if (slot.access != SlotAccess::Write && slot.load == rhi::LoadOp::Load)
-                out += "    " + imageNode + " -> " + passNode + " [label=" + quoted(arrow(slot, false)) + "];\n";
-            if (writes) out += "    " + passNode + " -> " + imageNode + " [label=" + quoted(arrow(slot, true)) + "];\n";
+            const auto version = [](std::uint32_t number) {
+                return number == ~0U ? std::string() : "v" + std::to_string(number);
+            };
+            if (slot.access != SlotAccess::Write && slot.load == rhi::LoadOp::Load) {
+                out += "    " + imageNode + " -> " + passNode +
+                       " [label=" + lines({slot.name, version(slot.reads), std::string(useText(slot.use))}) + "];\n";
+            }
+            if (slot.access != SlotAccess::Read) {
+                out += "    " + passNode + " -> " + imageNode +
+                       " [label=" + lines({slot.name, version(slot.makes), loadStoreText(slot)}) + "];\n";
+            }
         }
     }
     for (const auto& [name, resource] : exports) {

@@ -188,6 +188,10 @@ private:
             }
             before = key;
         }
+        if (const Member* threads = value_.member("threads"); threads && pass_.dispatchLike.empty()) {
+            reporter_.error(threads->place, "P028", title() + " has \"threads\", which only \"dispatchLike\" uses",
+                            "add \"dispatchLike\", or remove it");
+        }
     }
 
     void readTriple(std::string_view key, std::uint32_t (&out)[3]) {

@@ -68,7 +68,8 @@ std::vector<ImportInfo> PassTree::imports() const {
                          .buffer = import.kind == Kind::Buffer,
                          .cube = import.kind == Kind::ImageCube,
                          .optional = import.optional,
-                         .formats = import.formats});
+                         .formats = import.formats,
+                         .samples = import.samples});
     }
     return infos;
 }

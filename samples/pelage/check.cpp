@@ -2,6 +2,7 @@
 // Reads authored files and prints everything found wrong, one line each, in the form editors understand.
 #include "commands.hpp"
 #include "data.hpp"
+#include "generous_host.hpp"
 
 #include <pelage/hair/functors.hpp>
 #include <pelage/hair/library.hpp>
@@ -16,24 +17,11 @@ namespace pelage::app {
 
 namespace {
 
-/// A host that lends all the tree asks for and knows its classes, so that what is left for run time is the host.
-passes::HostDescription generousHost(const passes::PassTree& tree) {
-    passes::HostDescription host{.extent = {640, 640, 1}};
-    host.trustClasses = true;
-    for (const passes::ImportInfo& import : tree.imports()) {
-        passes::ImportDescription lent{
-            .present = true, .format = rhi::TextureFormat::RGBA16Float, .extent = host.extent};
-        if (!import.formats.empty()) lent.format = import.formats.front();
-        host.imports[import.name] = lent;
-    }
-    return host;
-}
-
 Diagnostics checkPassTree(const std::string& path) {
     const auto tree = passes::PassTree::load(path);
     if (!tree) return tree.error();
     Diagnostics found = (*tree)->warnings();
-    const auto plan = (*tree)->compile(generousHost(**tree));
+    const auto plan = (*tree)->compile(generousHost(**tree, {640, 640, 1}));
     found.append(plan ? plan->warnings : plan.error());
     return found;
 }
@@ -105,16 +93,20 @@ Diagnostics checkFile(const std::string& path, const std::vector<std::string>& d
 
 }  // namespace
 
-int check(const std::vector<std::string>& files) {
+int check(const CheckOptions& options) {
     hair::Library library(dataDirectory());
-    const std::vector<std::string> drawLists = drawListsOf(files, library);
+    const std::vector<std::string> drawLists = drawListsOf(options.files, library);
     int result = exitOk;
-    for (const std::string& file : files) {
+    for (const std::string& file : options.files) {
         const Diagnostics found = checkFile(file, drawLists, library);
-        std::fputs(found.text().c_str(), stderr);
+        if (options.json) {
+            std::fputs(found.jsonLines().c_str(), stdout);
+        } else {
+            std::fputs(found.text().c_str(), stderr);
+        }
         if (found.hasErrors()) {
             result = exitFailed;
-        } else {
+        } else if (!options.json) {
             std::printf("%s: %s\n", file.c_str(), found.empty() ? "clean" : "usable, with warnings");
         }
     }

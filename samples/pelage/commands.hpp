@@ -67,7 +67,30 @@ struct AccuracyOptions {
 int accuracy(const AccuracyOptions& options);
 
 int info(const std::vector<std::string>& files);
-int check(const std::vector<std::string>& files);
 int migrate(const std::vector<std::string>& files);
+
+struct CheckOptions {
+    std::vector<std::string> files = {};
+    bool json = false;  // an object a line on standard output, for editors
+};
+/// exitOk when all files are usable, warnings or not.
+int check(const CheckOptions& options);
+
+struct GraphOptions {
+    std::string input = {};                  // *.pass.json, or a shipped tree
+    std::vector<std::string> outputs = {};   // .dot or .html; none: DOT to standard output
+    std::string size = {};                   // of the frame
+    std::vector<std::string> settings = {};  // "name=value"
+    std::string measure = {};                // a scene to render with the tree; none: nothing is measured
+    DeviceOptions device = {};
+};
+int graph(const GraphOptions& options);
+
+struct SchemaOptions {
+    std::string name = {};  // passtree or material
+    bool markdown = false;  // a page for people instead
+    std::string output = "-";
+};
+int schema(const SchemaOptions& options);
 
 }  // namespace pelage::app

@@ -27,13 +27,16 @@ std::string withoutSeverity(const Diagnostic& diagnostic) {
 
 }  // namespace
 
-Failure::Failure(const Diagnostic& diagnostic) : line(withoutSeverity(diagnostic)) {}
+Failure::Failure(const Diagnostic& diagnostic) : line(withoutSeverity(diagnostic)) {
+    if (!diagnostic.file.empty()) files.push_back(diagnostic.file);
+}
 
 Failure::Failure(const Diagnostics& diagnostics) {
     std::size_t errors = 0;
     for (const Diagnostic& diagnostic : diagnostics.items()) {
         if (diagnostic.severity != Severity::Error) continue;
         if (errors++ == 0) line = withoutSeverity(diagnostic);
+        if (!diagnostic.file.empty()) files.push_back(diagnostic.file);
     }
     if (errors > 1) line += " (and " + std::to_string(errors - 1) + " more: see pelage check)";
 }
@@ -52,6 +55,14 @@ void warn(const std::string& text) {
 void warn(const Diagnostics& notes) {
     for (const Diagnostic& note : notes.items()) {
         if (note.severity == Severity::Warning) warn(withoutSeverity(note));
+    }
+}
+
+void tell(const Diagnostics& notes) {
+    warn(notes);
+    for (const Diagnostic& note : notes.items()) {
+        if (note.severity == Severity::Note)
+            std::fprintf(stderr, "pelage: note %s\n", oneLine(withoutSeverity(note)).c_str());
     }
 }
 

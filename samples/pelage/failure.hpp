@@ -6,6 +6,7 @@
 #include <pelage/rhi/error.hpp>
 
 #include <string>
+#include <vector>
 
 namespace pelage::app {
 
@@ -14,7 +15,8 @@ inline constexpr int exitFailed = 2;
 
 /// What stopped a command. Made from any error the libraries report.
 struct Failure {
-    std::string line = {};  // without "pelage: error "
+    std::string line = {};                // without "pelage: error "
+    std::vector<std::string> files = {};  // those that the errors are in, as far as they name them
 
     Failure() = default;
     explicit Failure(std::string text) : line(std::move(text)) {}
@@ -30,6 +32,8 @@ using Outcome = tl::expected<T, Failure>;
 int report(const Failure& failure);
 /// "pelage: warning …", one line each.
 void warn(const Diagnostics& notes);
+/// Notes as well: "pelage: note …".
+void tell(const Diagnostics& notes);
 void warn(const std::string& text);
 
 }  // namespace pelage::app

@@ -122,6 +122,40 @@ void addAccuracy(CLI::App& app, AccuracyOptions& options, int& result) {
     command->callback([&] { result = accuracy(options); });
 }
 
+void addCheck(CLI::App& app, CheckOptions& options, int& result) {
+    CLI::App* command = app.add_subcommand("check", "Find faults in pass trees, material types, materials and scenes");
+    command->add_option("files", options.files, "Files to read")->required();
+    command->add_flag("--json", options.json, "One JSON object a line on standard output, for editors");
+    command->footer("0: all are usable, with or without warnings; 2: one is not.");
+    command->callback([&] { result = check(options); });
+}
+
+void addGraph(CLI::App& app, GraphOptions& options, int& result) {
+    CLI::App* command = app.add_subcommand("graph", "Draw a pass tree: order, images, memory, what waits for what");
+    command->add_option("input", options.input, "A *.pass.json file, or the name of a shipped tree")->required();
+    command->add_option("-o,--output", options.outputs, ".html (one page, needs nothing else) or .dot; repeatable")
+        ->type_name("FILE")
+        ->allow_extra_args(false);
+    command->add_option("--size", options.size, "Width and height of the frame in pixels")->type_name("WxH");
+    command->add_option("--setting", options.settings, "Setting of the tree, name=value (repeatable)")
+        ->type_name("NAME=VALUE")
+        ->allow_extra_args(false);
+    command->add_option("--measure", options.measure, "Render this scene with the tree, and show what each pass cost")
+        ->type_name("SCENE");
+    addDevice(*command, options.device);
+    command->callback([&] { result = graph(options); });
+}
+
+void addSchema(CLI::App& app, SchemaOptions& options, int& result) {
+    CLI::App* command = app.add_subcommand("schema", "Print the schema of a kind of file, or a page about it");
+    command->add_option("name", options.name, "passtree or material")->required();
+    command->add_flag("--markdown", options.markdown, "The page: docs/passes.md and docs/materials.md are such");
+    command->add_option("-o,--output", options.output, "- is standard output")
+        ->type_name("FILE")
+        ->capture_default_str();
+    command->callback([&] { result = schema(options); });
+}
+
 void addFiles(CLI::App& app, const char* name, const char* help, std::vector<std::string>& files, int& result,
               int (*run)(const std::vector<std::string>&)) {
     CLI::App* command = app.add_subcommand(name, help);
@@ -140,6 +174,9 @@ int run(int argc, char** argv) {
     BenchOptions benchOptions;
     ScatterOptions scatterOptions;
     AccuracyOptions accuracyOptions;
+    CheckOptions checkOptions;
+    GraphOptions graphOptions;
+    SchemaOptions schemaOptions;
     std::vector<std::string> files;
     addRender(app, renderOptions, result);
     addView(app, viewOptions, result);
@@ -148,7 +185,9 @@ int run(int argc, char** argv) {
     addScatter(app, scatterOptions, result);
     addAccuracy(app, accuracyOptions, result);
     addFiles(app, "info", "Say what is in hair files", files, result, info);
-    addFiles(app, "check", "Find faults in pass trees, material types, materials and scenes", files, result, check);
+    addCheck(app, checkOptions, result);
+    addGraph(app, graphOptions, result);
+    addSchema(app, schemaOptions, result);
     addFiles(app, "migrate", "Rewrite material files for the present version of their type; comments are not kept",
              files, result, migrate);
     try {

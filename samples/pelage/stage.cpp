@@ -147,10 +147,13 @@ Outcome<Stage> makeStage(const StageOptions& options, hair::Library& library) {
     }
     if (auto done = applyView(options, stage.file); !done) return tl::unexpected(done.error());
 
-    stage.watched.push_back(stage.tree->file());
+    const auto watch = [&](const std::vector<std::string>& files) {
+        stage.watched.insert(stage.watched.end(), files.begin(), files.end());
+    };
+    watch(stage.tree->files());
     for (const hair::Object& object : stage.file.scene.objects) {
-        stage.watched.push_back(object.material.type().file());
-        for (const std::string& read : object.material.files()) stage.watched.push_back(read);
+        watch({object.material.type().file()});
+        watch(object.material.files());
     }
     return stage;
 }

@@ -4,12 +4,11 @@
 #include "commands.hpp"
 #include "data.hpp"
 #include "gpu.hpp"
+#include "live_stage.hpp"
 #include "orbit.hpp"
 #include "picture_file.hpp"
 #include "presenter.hpp"
-#include "stage.hpp"
 #include "view_window.hpp"
-#include "watch.hpp"
 
 #include <cstdio>
 #include <filesystem>
@@ -30,12 +29,10 @@ public:
           window_(std::move(window)),
           gpu_(std::move(gpu)),
           surface_(std::move(surface)),
-          stage_(std::move(stage)),
-          renderer_(std::move(renderer)),
+          live_(options.stage, std::move(stage), std::move(renderer),
+                [this](const auto& tree) { return makeRenderer(gpu_, tree, false); }),
           presenter_(gpu_.device),
-          orbit_(stage_.file.scene.camera) {
-        watch_.set(stage_.watched);
-    }
+          orbit_(live_.stage().file.scene.camera) {}
 
     Outcome<void> run() {
         bool stale = true;
@@ -70,16 +67,12 @@ private:
         return input.any();
     }
 
-    /// Reads changed files again; on an error the last good scene and frame stay, and the error is said once.
+    /// True when files changed and can be shown. When they cannot, why is said once, and the picture stays.
     bool reload() {
-        if (!watch_.changed()) return false;
-        hair::Library library(dataDirectory());
-        auto stage = makeStage(options_.stage, library);
-        if (!stage) return report(stage.error()), false;
-        if (auto set = renderer_.setTree(stage->tree); !set) return report(Failure(set.error())), false;
-        stage_ = std::move(*stage);
-        warn(stage_.file.notes);
-        watch_.set(stage_.watched);
+        const LiveStage::Polled polled = live_.poll();
+        if (polled.change == LiveStage::Change::Kept) report(Failure(polled.error));
+        tell(polled.notes);
+        if (polled.change != LiveStage::Change::Taken) return false;
         std::printf("read again: %s\n", options_.stage.input.c_str());
         std::fflush(stdout);
         return true;
@@ -97,14 +90,15 @@ private:
         if (!texture) return tl::unexpected(Failure(texture.error()));
         if (!*texture) return configured_ = {0, 0, 0}, false;
 
-        stage_.file.scene.camera = orbit_.camera();
-        stage_.file.frame.width = size.width;
-        stage_.file.frame.height = size.height;
+        Stage& stage = live_.stage();
+        stage.file.scene.camera = orbit_.camera();
+        stage.file.frame.width = size.width;
+        stage.file.frame.height = size.height;
         auto encoder = gpu_.device.createCommandEncoder("view");
-        if (auto done = renderer_.encode(stage_.file.scene, stage_.file.frame, encoder); !done) {
+        if (auto done = live_.renderer().encode(stage.file.scene, stage.file.frame, encoder); !done) {
             return tl::unexpected(Failure(done.error()));
         }
-        if (auto done = presenter_.encode(encoder, renderer_.displayTexture(), *texture); !done) {
+        if (auto done = presenter_.encode(encoder, live_.renderer().displayTexture(), *texture); !done) {
             return tl::unexpected(done.error());
         }
         auto commands = encoder.finish();
@@ -120,12 +114,13 @@ private:
     }
 
     void save() {
+        Stage& stage = live_.stage();
         std::error_code ignored;
         std::string path;
         for (int number = 1; path.empty() || std::filesystem::exists(path, ignored); ++number) {
-            path = stage_.name + "-" + std::to_string(number) + ".png";
+            path = stage.name + "-" + std::to_string(number) + ".png";
         }
-        auto picture = renderer_.render(stage_.file.scene, stage_.file.frame);
+        auto picture = live_.renderer().render(stage.file.scene, stage.file.frame);
         if (!picture) return void(report(Failure(picture.error())));
         if (auto written = writePicture(path, *picture); !written) return void(report(written.error()));
         std::printf("saved %s\n", path.c_str());
@@ -136,11 +131,9 @@ private:
     Window window_;  // outlives the surface and the device
     Gpu gpu_;
     rhi::Surface surface_;
-    Stage stage_;
-    hair::Renderer renderer_;
+    LiveStage live_;
     Presenter presenter_;
     Orbit orbit_;
-    Watch watch_ = {};
     rhi::Extent3D configured_ = {0, 0, 0};
 };
 

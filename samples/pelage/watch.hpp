@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: MIT
-// Notices files that were written again.
+// Notices files whose contents changed. Contents are compared, not times: two edits within one tick of the file
+// system's clock are two edits, and a file that was only touched is none.
 #pragma once
 
-#include <filesystem>
+#include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
@@ -11,33 +12,26 @@ namespace pelage::app {
 
 class Watch {
 public:
-    void set(const std::vector<std::string>& files) {
-        times_.clear();
-        for (const std::string& file : files) times_[file] = timeOf(file);
-    }
+    /// Watches these from now on; with `neighbours`, every *.json file beside them as well, those that do not exist yet
+    /// included. What is known of a file that was watched before stays known, so that no edit falls between.
+    void set(const std::vector<std::string>& files, bool neighbours = false);
 
-    /// True once after any of the files changed. A file that is gone for a moment (editors replace files) is no change.
-    bool changed() {
-        bool any = false;
-        for (auto& [file, known] : times_) {
-            const auto now = timeOf(file);
-            if (now == Time::min() || now == known) continue;
-            known = now;
-            any = true;
-        }
-        return any;
-    }
+    /// True once after any of the files changed. Editors replace files, and empty them before they write: a file that
+    /// is gone or empty counts as changed when it is so twice in a row.
+    bool changed();
 
 private:
-    using Time = std::filesystem::file_time_type;
+    static constexpr std::uint64_t gone = 0;
+    static std::uint64_t contentOf(const std::string& file);
+    std::vector<std::string> present() const;
 
-    static Time timeOf(const std::string& file) {
-        std::error_code failed;
-        const Time time = std::filesystem::last_write_time(file, failed);
-        return failed ? Time::min() : time;
-    }
-
-    std::map<std::string, Time> times_ = {};
+    struct Known {
+        std::uint64_t content = gone;
+        bool missedOnce = false;
+    };
+    std::vector<std::string> files_ = {};
+    bool neighbours_ = false;
+    std::map<std::string, Known> known_ = {};
 };
 
 }  // namespace pelage::app

@@ -107,6 +107,8 @@ const std::vector<Case>& cases() {
          R"("clear": { "depth": "fat" } } },
       "connect": { "map")",
          "\"fat\"", 0, "'far'"},
+        {"P028", When::Parse, R"("dispatchLike": "table", "threads")", R"("threads")", "\"threads\"", 0,
+         "dispatchLike"},
         {"P028", When::Parse, R"("threads": [8, 4, 1])", R"("dispatch": [1, 1, 1])", "\"table\", \"dispatch\"", 0,
          "both"},
         {"P029", When::Parse, R"("layers": { "view": "shadow" })", R"("layers": { "view": "shadw" })", "\"shadw\"", 0,

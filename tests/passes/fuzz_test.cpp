@@ -5,9 +5,13 @@
 
 #include <gtest/gtest.h>
 
+#include <pelage/passes/page.hpp>
+
 #include <algorithm>
 #include <iostream>
 #include <random>
+#include <set>
+#include <span>
 
 namespace pelage::passes::test {
 namespace {
@@ -24,71 +28,207 @@ void mustBeSaid(const Diagnostics& found, const std::string& text) {
     }
 }
 
-void attempt(const json::Value& root, const HostDescription& host, Tally& tally) {
+enum class Answer { Refused, Warned, Silent };
+
+Answer attempt(const json::Value& root, const HostDescription& host, Tally& tally) {
     ++tally.edits;
     const std::string text = write(root);
     try {
         const auto tree = PassTree::parse(text, "fuzz");
-        if (!tree) return mustBeSaid(tree.error(), text);
+        if (!tree) return mustBeSaid(tree.error(), text), Answer::Refused;
         const auto plan = (*tree)->compile(host);
-        if (!plan) return mustBeSaid(plan.error(), text);
+        if (!plan) return mustBeSaid(plan.error(), text), Answer::Refused;
         ++tally.unnoticed;
         for (const PlanPass& pass : plan->passes) {
             for (const PlanSlot& slot : pass.slots)
                 EXPECT_TRUE(slot.resource == ~0U || slot.resource < plan->resources.size());
         }
         EXPECT_FALSE(plan->dot().empty());
+        EXPECT_NE(html(*plan).find("</html>"), std::string::npos);
+        return (*tree)->warnings().empty() && plan->warnings.empty() ? Answer::Silent : Answer::Warned;
     } catch (...) {
-        FAIL() << "an exception for " << text;
+        ADD_FAILURE() << "an exception for " << text;
+        return Answer::Refused;
     }
 }
 
-std::vector<json::Value> replacements() {
-    std::vector<json::Value> made;
-    for (const char* text : {"null", "[]", "{}", "\"x\"", "1", "-1.5", "true"}) made.push_back(readJson(text));
-    return made;
-}
+constexpr const char* replacements[] = {"null", "[]", "{}", "\"x\"", "1", "-1.5", "true"};
 
-void eachEdit(const std::string& text, const HostDescription& host, Tally& tally) {
-    const json::Value original = readJson(text);
-    std::size_t count = 0;
-    {
-        json::Value counted = original;
-        forEachValue(counted, [&](json::Value&, std::size_t) { ++count; });
-    }
-    const std::vector<json::Value> others = replacements();
-    for (std::size_t at = 0; at < count; ++at) {
-        for (std::size_t kind = 0; kind <= others.size(); ++kind) {
-            json::Value root = original;
-            json::Value* parent = nullptr;
-            std::size_t index = 0, seen = 0;
-            forEachValue(root, [&](json::Value& p, std::size_t i) {
-                if (seen++ == at) parent = &p, index = i;
-            });
-            if (kind < others.size()) {
-                (parent->isArray() ? parent->elements[index] : parent->members[index].value) = others[kind];
-            } else if (parent->isArray()) {
-                parent->elements.erase(parent->elements.begin() + static_cast<std::ptrdiff_t>(index));
-            } else {
-                parent->members.erase(parent->members.begin() + static_cast<std::ptrdiff_t>(index));
-            }
-            attempt(root, host, tally);
+// Where a value stands, with * for names that the file gives and # for places in a list: "passes.#.slots.*.clear.#".
+std::string placeOf(const json::Value& root, const std::vector<std::size_t>& path) {
+    static const std::set<std::string> named = {"settings",  "imports",    "views",       "attachments",
+                                                "templates", "exports",    "slots",       "connect",
+                                                "constants", "parameters", "whenDisabled"};
+    std::string place;
+    const json::Value* value = &root;
+    bool names = false;
+    for (const std::size_t index : path) {
+        if (!place.empty()) place += '.';
+        if (value->isArray()) {
+            place += '#';
+            value = &value->elements[index];
+            names = false;
+            continue;
         }
+        const json::Member& member = value->members[index];
+        place += names ? "*" : member.key;
+        names = !names && named.count(member.key) != 0;
+        value = &member.value;
     }
+    return place;
+}
+
+void forEachPath(const json::Value& value, std::vector<std::size_t>& path,
+                 const std::function<void(const std::vector<std::size_t>&)>& use) {
+    const std::size_t count = value.isArray() ? value.elements.size() : value.members.size();
+    for (std::size_t i = 0; i < count; ++i) {
+        path.push_back(i);
+        use(path);
+        forEachPath(value.isArray() ? value.elements[i] : value.members[i].value, path, use);
+        path.pop_back();
+    }
+}
+
+json::Value& at(json::Value& root, std::span<const std::size_t> path) {
+    json::Value* value = &root;
+    for (const std::size_t index : path)
+        value = value->isArray() ? &value->elements[index] : &value->members[index].value;
+    return *value;
+}
+
+/// Every value deleted and replaced; the edits that are taken without a word, by place and replacement.
+std::set<std::string> eachEdit(const std::string& text, const HostDescription& host, Tally& tally) {
+    const json::Value original = readJson(text);
+    const std::string whole = write(original);
+    std::set<std::string> silent;
+    std::vector<std::size_t> start;
+    forEachPath(original, start, [&](const std::vector<std::size_t>& path) {
+        const std::string place = placeOf(original, path);
+        for (std::size_t kind = 0; kind <= std::size(replacements); ++kind) {
+            json::Value root = original;
+            json::Value& parent = at(root, std::span(path).first(path.size() - 1));
+            const auto index = static_cast<std::ptrdiff_t>(path.back());
+            if (kind < std::size(replacements)) {
+                at(root, path) = readJson(replacements[kind]);
+                if (write(root) == whole) continue;  // it says that already
+            } else if (parent.isArray()) {
+                parent.elements.erase(parent.elements.begin() + index);
+            } else {
+                parent.members.erase(parent.members.begin() + index);
+            }
+            const std::string edit = kind < std::size(replacements) ? replacements[kind] : "deleted";
+            if (attempt(root, host, tally) == Answer::Silent) silent.insert(place + " " + edit);
+        }
+    });
+    return silent;
+}
+
+// Edits that are taken without a word, and why that is right. Whatever else is taken silently is a fault.
+struct Legal {
+    const char* place;
+    std::vector<const char*> edits;
+    const char* why;
+};
+
+const std::vector<Legal>& legalEdits() {
+    static const std::vector<Legal> all = {
+        {"$schema", {"\"x\"", "deleted"}, "for editors"},
+        {"name", {"\"x\""}, "another name"},
+        {"description", {"\"x\"", "deleted"}, "for people"},
+        {"settings.*.description", {"\"x\"", "deleted"}, "for people"},
+        {"imports.*.description", {"\"x\"", "deleted"}, "for people"},
+        {"passes.#.description", {"\"x\"", "deleted"}, "for people"},
+        {"settings.*.default", {"1"}, "another value in range"},
+        {"settings.*.min", {"1", "deleted"}, "another range around the default; 0 when absent"},
+        {"settings.*.max", {"1", "deleted"}, "another range around the default; the greatest number when absent"},
+        {"settings.*.multipleOf", {"1", "deleted"}, "1 when absent"},
+        {"settings.*.values.#", {"\"x\"", "deleted"}, "another list of words, none of which is used elsewhere"},
+        {"imports.*.formats", {"deleted"}, "any format"},
+        {"imports.*.formats.#", {"deleted"}, "fewer formats, that of the host among them"},
+        {"imports.*.samples", {"deleted"}, "any number of samples"},
+        {"imports.*.optional", {"deleted"}, "an import that the host does lend"},
+        {"views.*.count", {"1"}, "another number of views"},
+        {"attachments.*.formatFallbacks", {"[]", "deleted"}, "the first format is there"},
+        {"attachments.*.formatFallbacks.#", {"deleted"}, "the first format is there"},
+        {"attachments.*.layers", {"1", "deleted"}, "one view of the kind, so one layer; 1 when absent"},
+        {"attachments.*.size.fixed.#", {"1"}, "another size"},
+        {"attachments.*.size.scale", {"1", "deleted"}, "another size; 1 when absent"},
+        {"attachments.*.bytes", {"1"}, "another size"},
+        {"attachments.*.bytes.like", {"deleted"}, "the frame's pixels"},
+        {"attachments.*.bytes.perPixel", {"1"}, "another size"},
+        {"exports.*", {"deleted"}, "another export needs the same passes"},
+        {"exports.*.optional", {"deleted"}, "an export that there is"},
+        {"templates.*.slots.*.bind", {"\"x\""}, "only the shader knows its names (S010)"},
+        {"passes.#.slots.*.bind", {"\"x\""}, "only the shader knows its names (S010)"},
+        {"passes.#.shader", {"\"x\""}, "only the host knows its shaders (S001)"},
+        {"passes.#.shader.then", {"\"x\""}, "only the host knows its shaders (S001)"},
+        {"passes.#.shader.else", {"\"x\""}, "only the host knows its shaders (S001)"},
+        {"passes.#.constants", {"{}", "deleted"}, "the shader's defaults"},
+        {"passes.#.constants.*", {"1", "-1.5", "true", "deleted"}, "only the shader knows their types"},
+        {"passes.#.parameters.*", {"1"}, "another value in range"},
+        {"passes.#.enabledWhen", {"deleted"}, "always on"},
+        {"passes.#.forEachView", {"deleted"}, "one view of the kind"},
+        {"passes.#.sort", {"deleted"}, "none when absent"},
+        {"passes.#.after", {"[]", "deleted"}, "an order that only the author wanted"},
+        {"passes.#.after.#", {"deleted"}, "an order that only the author wanted"},
+        {"passes.#.dispatchIndirect", {"deleted"}, "one workgroup when absent"},
+        {"passes.#.threads", {"deleted"}, "8 x 8 when absent"},
+        {"passes.#.threads.#", {"1"}, "another workgroup"},
+        {"passes.#.connect.*", {"deleted"}, "an optional slot"},
+        {"passes.#.connect.*.#", {"deleted"}, "another of the list is there"},
+        {"passes.#.whenDisabled", {"{}", "deleted"}, "a reader has another source, or is optional"},
+        {"passes.#.whenDisabled.*", {"deleted"}, "a reader has another source, or is optional"},
+        {"passes.#.slots.*.blend", {"deleted"}, "off when absent"},
+        {"passes.#.slots.*.clear", {"deleted"}, "a slot that continues from another pass"},
+        {"passes.#.slots.*.clear.#", {"1", "-1.5"}, "another colour, of a float format where it is below 0"},
+        {"passes.#.slots.*.clear.depth", {"1"}, "another depth"},
+        {"passes.#.slots.*.depthTest", {"deleted"}, "nearerEqual when absent"},
+        {"passes.#.slots.*.load", {"deleted"}, "a slot that covers its target"},
+    };
+    return all;
 }
 
 TEST(Fuzz, EveryValueDeletedOrReplaced) {
     Tally tally;
+    std::set<std::string> silent;
     HostDescription frame{.extent = {64, 64, 1}};
     frame.imports["DisplayConstants"] = {true};
-    eachEdit(std::string(shippedText("hair_frame.pass.json")), frame, tally);
-    eachEdit(wholeGrammar(), host(), tally);
-    eachEdit(moreGrammar(), moreHost(), tally);
-    RecordProperty("edits", static_cast<int>(tally.edits));
-    RecordProperty("unnoticed", static_cast<int>(tally.unnoticed));
+    HostDescription lent{.extent = {64, 48, 1}};
+    lent.imports["SceneColor"] = {true, rhi::TextureFormat::RGBA16Float, {64, 48, 1}, 1};
+    lent.imports["SceneDepth"] = {true, rhi::TextureFormat::Depth32Float, {64, 48, 1}, 1};
+    lent.imports["FrameConstants"] = {true};
+    for (const auto& [text, host] : {std::pair(std::string(shippedText("hair_frame.pass.json")), frame),
+                                     std::pair(std::string(shippedText("hair_host.pass.json")), lent),
+                                     std::pair(wholeGrammar(), test::host()), std::pair(moreGrammar(), moreHost())}) {
+        silent.merge(eachEdit(text, host, tally));
+    }
     std::cout << tally.edits << " edits, " << tally.unnoticed << " still a plan\n";
-    EXPECT_GT(tally.edits, 3000U);
-    EXPECT_LT(tally.unnoticed * 5, tally.edits) << "most edits must be noticed";
+    std::set<std::string> legal;
+    for (const Legal& each : legalEdits()) {
+        for (const char* edit : each.edits) legal.insert(std::string(each.place) + " " + edit);
+    }
+    for (const std::string& each : silent) EXPECT_EQ(legal.count(each), 1U) << "taken without a word: " << each;
+    for (const std::string& each : legal) EXPECT_EQ(silent.count(each), 1U) << "no longer taken silently: " << each;
+    EXPECT_GT(tally.edits, 5815U);
+}
+
+// What a validator by structure alone lets through: words in the wrong place, numbers out of what they mean.
+TEST(Fuzz, WhatOnlyMeaningForbidsIsRefused) {
+    struct Case {
+        const char *from, *to, *code;
+    };
+    const std::string frame(shippedText("hair_frame.pass.json"));
+    for (const Case& each : {Case{R"("values": ["1", "4"])", R"("values": ["1", "3", "4"])", "P043"},
+                             Case{R"("values": ["1", "4"])", R"("values": ["1", "few", "4"])", "P043"},
+                             Case{R"("clear": { "depth": "far" })", R"("clear": {})", "J011"},
+                             Case{R"("map": "const.depthFarArray")", R"("map": "depthFarArray")", "P015"},
+                             Case{R"("map": "const.depthFarArray")", R"("map": "Depth.depth")", "P045"},
+                             Case{R"("clear": { "depth": "far" })", R"("clear": { "depth": 1.5 })", "J014"},
+                             Case{R"("size": { "frame": 1 } })", R"("size": { "frame": 1, "scale": 2 } })", "P0"}}) {
+        const auto tree = PassTree::parse(edited(frame, each.from, each.to), "t");
+        ASSERT_FALSE(tree) << each.to;
+        EXPECT_EQ(tree.error().items().front().code.rfind(each.code, 0), 0U) << each.to << "\n" << tree.error().text();
+    }
 }
 
 TEST(Fuzz, NamesExchangedAtRandom) {

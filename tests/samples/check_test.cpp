@@ -2,6 +2,10 @@
 #include "app_files.hpp"
 #include "app_fixture.hpp"
 
+#include <nlohmann/json.hpp>
+
+#include <sstream>
+
 namespace pelage::test {
 
 namespace {
@@ -126,6 +130,47 @@ TEST_F(Check, ExitCodes) {
     EXPECT_EQ(run({"check", write("bad.pass.json", "{}")}).exitCode, 2);
     EXPECT_EQ(run({"check", write("bad.material.json", "{}")}).exitCode, 2);
     EXPECT_EQ(run({"check", write("bad.materialtype.json", "{}")}).exitCode, 2);
+}
+
+// Each line is JSON by itself, with the place, and where the first of two names stood.
+TEST_F(Check, JsonIsOneObjectForEachFault) {
+    const std::string file = write("twice.scene.json",
+                                   "{ \"format\": \"pelage.scene/1\",\n"
+                                   "  \"objects\": [],\n"
+                                   "  \"exposure\": 1, \"exposure\": 2 }\n");
+    const std::string good = std::string(PELAGE_DATA_DIR) + "/passes/templates/hair_frame.pass.json";
+    const RunResult result = run({"check", "--json", good, file, path("gone.pass.json")});
+    EXPECT_EQ(result.exitCode, 2);
+    EXPECT_EQ(result.err, "");
+    std::vector<nlohmann::json> found;
+    std::istringstream lines(result.out);
+    for (std::string line; std::getline(lines, line);) found.push_back(nlohmann::json::parse(line));
+    ASSERT_EQ(found.size(), 2U) << result.out;
+    EXPECT_EQ(found[0]["file"], file);
+    EXPECT_EQ(found[0]["code"], "J004");
+    EXPECT_EQ(found[0]["line"], 3);
+    EXPECT_EQ(found[0]["column"], 18);
+    EXPECT_EQ(found[0]["severity"], "error");
+    ASSERT_EQ(found[0]["related"].size(), 1U);
+    EXPECT_EQ(found[0]["related"][0], nlohmann::json({{"file", file}, {"line", 3}, {"column", 3}}));
+    EXPECT_EQ(found[1]["code"], "F001");
+    EXPECT_EQ(found[1]["line"], 0);
+    EXPECT_EQ(run({"check", "--json", good}).exitCode, 0);
+    EXPECT_EQ(run({"check", "--json", good}).out, "");
+}
+
+TEST_F(Check, JsonSaysTheSameAsTheLines) {
+    const std::string file = write("bad.pass.json", R"({ "format": "pelage.passtree/1", "nam": 3, "passes": 1 })");
+    const RunResult plain = run({"check", file}), json = run({"check", "--json", file});
+    EXPECT_EQ(plain.exitCode, json.exitCode);
+    std::istringstream lines(plain.err), objects(json.out);
+    for (std::string line, object; std::getline(lines, line);) {
+        ASSERT_TRUE(std::getline(objects, object)) << line;
+        const nlohmann::json read = nlohmann::json::parse(object);
+        const std::string text = read["text"];
+        EXPECT_NE(line.find(text), std::string::npos) << line;
+    }
+    EXPECT_TRUE(objects.peek() == std::char_traits<char>::eof());
 }
 
 TEST_F(Check, InfoDescribesHair) {

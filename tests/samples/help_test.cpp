@@ -11,13 +11,13 @@ TEST_F(Help, OfTheProgramNamesEveryCommand) {
     const RunResult result = run({"--help"});
     EXPECT_EQ(result.exitCode, 0);
     EXPECT_EQ(result.err, "");
-    for (const char* command : {"render", "view", "info", "check", "gallery", "bench", "scatter", "accuracy"}) {
+    for (const char* command : {"render", "view", "info", "check", "graph", "schema", "gallery", "bench", "scatter", "accuracy"}) {
         EXPECT_NE(result.out.find(command), std::string::npos) << command;
     }
 }
 
 TEST_F(Help, OfEveryCommand) {
-    for (const char* command : {"render", "view", "info", "check", "gallery", "bench", "scatter", "accuracy"}) {
+    for (const char* command : {"render", "view", "info", "check", "graph", "schema", "gallery", "bench", "scatter", "accuracy"}) {
         const RunResult result = run({command, "--help"});
         EXPECT_EQ(result.exitCode, 0) << command;
         EXPECT_EQ(result.err, "") << command;

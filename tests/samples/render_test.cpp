@@ -56,6 +56,21 @@ TEST_F(Render, ScenesHaveRelativeAssets) {
         "frame": { "settings": { "msaa": "1" } } })"));
 }
 
+TEST_F(Render, GraphShowsWhatEachPassCost) {
+    write("strands.hair", hairFile(40, 6));
+    const std::string scene = write("mine.scene.json", R"({ "format": "pelage.scene/1",
+        "objects": [{ "name": "hair", "asset": "strands.hair", "material": "brown" }],
+        "lights": [{ "kind": "point", "position": [0, 2, 1], "intensity": 4 }] })");
+    const RunResult result =
+        run({"graph", "hair_frame", "--measure", scene, "--size", "64x48", "--validation", "-o", path("a.html")});
+    EXPECT_EQ(result.exitCode, 0) << result.err;
+    const std::string page = read(path("a.html"));
+    EXPECT_NE(page.find("Measured on "), std::string::npos);
+    EXPECT_NE(page.find("64 x 48"), std::string::npos);
+    EXPECT_NE(page.find("share of the GPU"), std::string::npos);
+    EXPECT_NE(page.find(" barriers; a device does not count them for each pass"), std::string::npos);
+}
+
 TEST_F(Render, SameFileTwiceIsTheSamePicture) {
     const std::string file = write("a.hair", hairFile(40, 6));
     renders(file);

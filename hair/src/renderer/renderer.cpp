@@ -71,7 +71,8 @@ Outcome<Renderer> Renderer::create(Descriptor descriptor) {
     State* raw = renderer.state_.get();
     state.graph = passes::Graph({.device = descriptor.device,
                                  .shaders = [raw](const std::string& file) { return raw->module(file); },
-                                 .measure = descriptor.measure});
+                                 .measure = descriptor.measure,
+                                 .classes = std::move(descriptor.classes)});
     auto block = descriptor.device.createBuffer(
         {.label = "display constants", .size = 16, .usage = rhi::BufferUsage::Uniform | rhi::BufferUsage::CopyDst});
     if (!block) return tl::unexpected(toDiagnostic(block.error()));
@@ -83,7 +84,7 @@ Outcome<void> Renderer::setTree(std::shared_ptr<const passes::PassTree> tree) {
     State& state = *state_;
     if (state.built) {
         auto built = state.graph.build(*tree, state.host);
-        if (!built) return tl::unexpected(built.error().items().front());
+        if (!built) return tl::unexpected(firstError(built.error()));
         ++state.graphBuilds;
     }
     state.tree = std::move(tree);

@@ -14,9 +14,13 @@ Outcome<void> Renderer::State::buildGraph(const Scene& scene, const FrameSetting
     wanted.extent = {settings.width, settings.height, 1};
     wanted.depth = passes::DepthConvention::Reversed;
     wanted.settings = settings.settings;
-    wanted.imports["EnvIrradiance"] = {true, rhi::TextureFormat::RGBA16Float, {16, 16, 6}, 1};
-    wanted.imports["DisplayConstants"] = {true, rhi::TextureFormat::Undefined, {}, 1};
-    wanted.imports["FrameConstants"] = {true, rhi::TextureFormat::Undefined, {}, 1};
+    // What a tree does not ask for is not lent: a warning about it would not be the caller's doing.
+    for (const passes::ImportInfo& import : tree->imports()) {
+        if (import.name == "EnvIrradiance")
+            wanted.imports[import.name] = {true, rhi::TextureFormat::RGBA16Float, {16, 16, 6}, 1};
+        if (import.name == "DisplayConstants" || import.name == "FrameConstants")
+            wanted.imports[import.name] = {true, rhi::TextureFormat::Undefined, {}, 1};
+    }
     for (const auto& [name, texture] : settings.imports)
         if (texture) wanted.imports[name] = {true, texture.format(), texture.size(), texture.sampleCount()};
     // Nobody can ask this renderer for its depth, so that need not outlive the passes that test against it.
@@ -45,7 +49,7 @@ Outcome<void> Renderer::State::buildGraph(const Scene& scene, const FrameSetting
     };
     if (same()) return {};
     auto result = graph.build(*tree, wanted);
-    if (!result) return tl::unexpected(result.error().items().front());
+    if (!result) return tl::unexpected(firstError(result.error()));
     host = std::move(wanted);
     built = true;
     ++graphBuilds;

@@ -15,6 +15,14 @@
 
 namespace pelage::hair {
 
+/// The first that is an error; warnings may stand before it.
+inline Diagnostic firstError(const Diagnostics& found) {
+    for (const Diagnostic& each : found.items()) {
+        if (each.severity == Severity::Error) return each;
+    }
+    return found.empty() ? Diagnostic() : found.items().front();
+}
+
 struct ObjectBlock {
     glm::mat4 model = glm::mat4(1.0F), normalMatrix = glm::mat4(1.0F);
     glm::vec4 lineWidth = {};

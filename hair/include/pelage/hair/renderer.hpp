@@ -86,6 +86,8 @@ public:
         /// Shaders of the host's own; asked before the built-in ones, which may so be replaced. hair/shaders/*.glsl has
         /// the declarations of the sets that the renderer binds.
         ShaderCode shaders = {};
+        /// Pass classes of the host's own, for trees that name them.
+        passes::PassClassRegistry classes = {};
         /// Called with a pipeline's key before it is made, on the thread that makes it: for progress and for tests.
         std::function<void(std::uint64_t key)> beforePipeline = {};
     };

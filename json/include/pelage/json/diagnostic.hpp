@@ -26,6 +26,12 @@ struct Diagnostic {
 /// "file:line:column: error J010: text; hint: hint", never a line break.
 std::string toString(const Diagnostic& diagnostic);
 
+/// The same for programs: one line of JSON without a line break,
+/// {"file","line","column","severity","code","text","hint","related":[{"file","line","column"}]}. Line and column are 0
+/// when there is no place. `related` are the places that the text and the hint name ("first at 12:5"). Bytes that are
+/// not UTF-8 become U+FFFD.
+std::string toJson(const Diagnostic& diagnostic);
+
 /// Everything found wrong with one piece of input, in the order of the text.
 class Diagnostics {
 public:
@@ -37,6 +43,8 @@ public:
     void sortByPlace();
     /// All lines, each ending in a line feed.
     std::string text() const;
+    /// The same in JSON: an object a line.
+    std::string jsonLines() const;
 
 private:
     std::vector<Diagnostic> items_;

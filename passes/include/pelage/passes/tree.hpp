@@ -54,6 +54,7 @@ struct ImportInfo {
     std::string name = {};
     bool buffer = false, cube = false, optional = false;
     std::vector<rhi::TextureFormat> formats = {};  // that the tree accepts; empty: any
+    std::vector<std::uint32_t> samples = {};       // the same
 };
 
 /// A parameter that a pass class takes from the file: `"parameters": {"radius": 2.5}`.

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: MIT
+// Words for the parts of a plan, as the graph and the page show them.
+#pragma once
+
+#include <pelage/passes/tree.hpp>
+
+#include <string>
+#include <vector>
+
+namespace pelage::passes {
+
+/// "640 x 640 x 2 RGBA16Float, 4 samples"; of a buffer, "buffer".
+std::string shapeText(const PlanResource& resource);
+/// "6.25 MiB", "64 KiB", "16 B".
+std::string byteText(std::uint64_t bytes);
+std::string_view useText(SlotUse use);
+std::string_view kindText(PassKind kind);
+/// "v1"; "v1-v2" of what is changed; "as lent".
+std::string versionText(const PlanSlot& slot);
+/// "load", "clear" or "-", then "store" or "discard"; empty for a slot that only reads.
+std::string loadStoreText(const PlanSlot& slot);
+
+/// A use that cannot begin before an earlier pass is done with the same image or buffer.
+struct PlanWait {
+    std::uint32_t slot = 0;         // in PlanPass::slots
+    std::uint32_t after = ~0U;      // the pass
+    SlotUse from = SlotUse::Color;  // how that pass used it; another use is another layout
+};
+/// By pass. Derived from the plan alone: rhi joins the waits of one pass into one barrier, and adds those of memory
+/// that changes hands.
+std::vector<std::vector<PlanWait>> waitsOf(const Plan& plan);
+
+}  // namespace pelage::passes
