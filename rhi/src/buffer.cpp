@@ -85,6 +85,20 @@ std::uint64_t Buffer::size() const {
 BufferUsage Buffer::usage() const {
     return object_->descriptor.usage;
 }
+Result<void> Buffer::mapAsync(std::function<void(std::span<std::byte>)> ready) const {
+    if (auto ok = detail::needHandle(*this, "the buffer"); !ok) return ok;
+    auto& device = *object_->device;
+    if (mapped().empty())
+        return device.reported<void>(detail::invalid(
+            ErrorCode::NotMapped,
+            detail::cat(object_->describe(), " has the usage ", detail::usageNames(object_->descriptor.usage),
+                        "; MapRead or MapWrite is needed for mapAsync().")));
+    // What waits in the graveyard must not hold what holds the device.
+    device.bury(object_->lastUse, [buffer = std::weak_ptr(object_), tell = std::move(ready)](detail::DeviceObject& d) {
+        if (const auto alive = buffer.lock()) tell(d.lost ? std::span<std::byte>() : Buffer(alive).mapped());
+    });
+    return {};
+}
 std::span<std::byte> Buffer::mapped() const {
     if (!object_ || !any(object_->descriptor.usage & (BufferUsage::MapRead | BufferUsage::MapWrite))) return {};
     return {object_->allocation.mapped, object_->descriptor.size};

@@ -49,6 +49,31 @@ Result<void> openDevice(DeviceObject& device, const BlobCache& pipelines) {
 
 namespace {
 
+/// "maxBindGroups 99 (it has 8), …"; empty when all is there.
+std::string shortLimits(const Limits& has, const Limits& wanted) {
+    std::string gaps;
+    const auto check = [&](const char* word, auto have, auto want, bool enough) {
+        if (!enough) gaps += cat(gaps.empty() ? "" : ", ", word, ' ', want, " (it has ", have, ')');
+    };
+#define PELAGE_AT_LEAST(word) check(#word, has.word, wanted.word, has.word >= wanted.word)
+#define PELAGE_AT_MOST(word) check(#word, has.word, wanted.word, has.word <= wanted.word)
+    PELAGE_AT_LEAST(maxTextureDimension2D);
+    PELAGE_AT_LEAST(maxTextureArrayLayers);
+    PELAGE_AT_LEAST(maxBindGroups);
+    PELAGE_AT_LEAST(maxColorAttachments);
+    PELAGE_AT_LEAST(maxPushConstantsSize);
+    PELAGE_AT_MOST(minUniformBufferOffsetAlignment);
+    PELAGE_AT_MOST(minStorageBufferOffsetAlignment);
+    PELAGE_AT_LEAST(maxComputeWorkgroupsPerDimension);
+    PELAGE_AT_LEAST(maxUniformBufferBindingSize);
+    PELAGE_AT_LEAST(maxStorageBufferBindingSize);
+    PELAGE_AT_LEAST(maxBufferSize);
+    PELAGE_AT_LEAST(maxLineWidth);
+#undef PELAGE_AT_LEAST
+#undef PELAGE_AT_MOST
+    return gaps;
+}
+
 Result<std::shared_ptr<DeviceObject>> makeDevice(const std::shared_ptr<AdapterObject>& adapter,
                                                  const DeviceDescriptor& descriptor) {
     const auto title = cat("[Device \"", descriptor.label, "\"]");
@@ -59,6 +84,9 @@ Result<std::shared_ptr<DeviceObject>> makeDevice(const std::shared_ptr<AdapterOb
         return fail(ErrorKind::Unsupported, ErrorCode::MissingFeature,
                     cat(title, " requires ", featureNames(absent), ", which [Adapter \"", adapter->info.name,
                         "\"] does not have; it has ", featureNames(offered), '.'));
+    if (const auto gaps = shortLimits(adapter->info.limits, descriptor.requiredLimits); !gaps.empty())
+        return fail(ErrorKind::Unsupported, ErrorCode::MissingFeature,
+                    cat(title, " requires ", gaps, " of [Adapter \"", adapter->info.name, "\"]."));
     const Feature granted = descriptor.requiredFeatures | (descriptor.optionalFeatures & offered);
 
     auto device = std::make_shared<DeviceObject>();

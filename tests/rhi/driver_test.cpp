@@ -114,6 +114,47 @@ TEST(Toggles, FollowTheDriverAndItsVersion) {
               Names{"resolveToFirstLayerOnly"});
 }
 
+TEST(Limits, EveryOneThatFallsShortIsNamed) {
+    NullDriver null;
+    const auto instance = NullDevice::get(vulkan::createInstance({}, NullDriver::entry()));
+    const auto adapter = NullDevice::get(instance.requestAdapter());
+    EXPECT_TRUE(adapter.requestDevice({.requiredLimits = adapter.info().limits}));
+    Limits wanted;
+    wanted.maxBindGroups = 99;
+    wanted.maxBufferSize = 1ULL << 50;
+    wanted.minUniformBufferOffsetAlignment = 1;
+    const auto device = adapter.requestDevice({.requiredLimits = wanted});
+    ASSERT_FALSE(device);
+    for (const char* word : {"maxBindGroups 99 (it has 8)", "maxBufferSize", "minUniformBufferOffsetAlignment 1"})
+        EXPECT_NE(device.error().message.find(word), std::string::npos) << device.error().message;
+}
+
+TEST(MapAsync, TellsWhenTheWorkThatUsesTheBufferIsDone) {
+    NullDevice n;
+    n.driver.holdSignals = true;  // submissions stay unfinished
+    const auto back = n.buffer("back", 256, BufferUsage::MapRead | BufferUsage::CopyDst);
+    std::size_t told = 0, calls = 0;
+    const auto tell = [&](std::span<std::byte> bytes) {
+        told = bytes.size();
+        ++calls;
+    };
+    auto encoder = n.device.createCommandEncoder();
+    encoder.clearBuffer(back);
+    n.submit(encoder);
+    EXPECT_TRUE(back.mapAsync(tell));
+    n.device.collect();
+    EXPECT_EQ(calls, 0U) << "the device is not done";
+    n.driver.releaseSignals();
+    n.device.collect();
+    EXPECT_EQ(calls, 1U);
+    EXPECT_EQ(told, 256U);
+    EXPECT_TRUE(back.mapAsync(tell));
+    EXPECT_EQ(calls, 2U) << "at once when nothing uses it";
+    const auto refused = n.buffer("plain", 64, BufferUsage::CopyDst).mapAsync(tell);
+    ASSERT_FALSE(refused);
+    EXPECT_EQ(refused.error().code, ErrorCode::NotMapped);
+}
+
 TEST(Toggles, AnUnknownNameListsTheKnown) {
     NullDriver null;
     const auto instance = NullDevice::get(vulkan::createInstance({}, NullDriver::entry()));

@@ -166,7 +166,10 @@ VkResult F::vkQueueSubmit2(VkQueue queue, std::uint32_t count, const VkSubmitInf
             for (const auto buffer : readback) d.oracle->hostReads(buffer);
         for (std::uint32_t i = 0; i < infos[s].signalSemaphoreInfoCount; ++i) {
             const auto& signal = infos[s].pSignalSemaphoreInfos[i];
-            d.semaphores_[id(signal.semaphore)] = signal.value;
+            if (d.holdSignals)
+                d.heldSignals_.emplace_back(id(signal.semaphore), signal.value);
+            else
+                d.semaphores_[id(signal.semaphore)] = signal.value;
         }
     }
     return VK_SUCCESS;

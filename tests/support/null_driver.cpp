@@ -54,6 +54,12 @@ void NullDriver::failCall(std::uint64_t n, VkResult result) {
     failResult_ = result;
     failed_.reset();
 }
+void NullDriver::releaseSignals() {
+    const std::lock_guard lock(mutex_);
+    holdSignals = false;
+    for (const auto& [semaphore, value] : heldSignals_) semaphores_[semaphore] = value;
+    heldSignals_.clear();
+}
 std::vector<std::string> NullDriver::alive() const {
     const std::lock_guard lock(mutex_);
     std::vector<std::string> all;

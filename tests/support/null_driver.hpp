@@ -29,6 +29,8 @@ public:
     static PFN_vkGetInstanceProcAddr entry();
 
     // --- What a test asks for.
+    bool holdSignals = false;  // submissions signal only with releaseSignals()
+    void releaseSignals();
     /// The n-th call that can fail (1 is the next) fails with `result`; 0: none does.
     void failCall(std::uint64_t n, VkResult result);
     /// Every call that can fail, by name, since the start.
@@ -108,6 +110,7 @@ private:
     std::unordered_map<std::uint64_t, std::uint64_t> moduleHashes_;
     std::unordered_map<std::uint64_t, std::set<std::uint64_t>> caches_;  // hashes of pipelines
     std::unordered_map<std::uint64_t, std::uint64_t> semaphores_;        // timeline values
+    std::vector<std::pair<std::uint64_t, std::uint64_t>> heldSignals_;
     std::unordered_map<std::uint64_t, std::vector<std::shared_ptr<Commands>>> pools_;
 };
 

@@ -58,6 +58,8 @@ struct Toggle {
 struct DeviceDescriptor {
     std::string label = "device";
     Feature requiredFeatures = Feature::None;  // absent ones are an error that names them all
+    /// At least these (alignments: at most); the defaults are what every device has. All that falls short is one error.
+    Limits requiredLimits = {};
     Feature optionalFeatures = Feature::WideLines | Feature::PipelineStatistics | Feature::Timestamps;
     BlobCache pipelines = {};
     std::vector<Toggle> toggles = {};  // those that are not to be as the driver asks for

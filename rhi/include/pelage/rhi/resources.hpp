@@ -9,6 +9,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -65,6 +66,10 @@ public:
     /// The bytes of a buffer with MapRead or MapWrite; persistently mapped and coherent. Read only after the submission
     /// that wrote it is done (Device::wait). Empty for other buffers.
     std::span<std::byte> mapped() const;
+    /// Calls `ready` with mapped() once everything submitted so far that uses the buffer is done: from submit(), wait()
+    /// or Device::collect(), on the thread that calls it, maybe at once. With an empty span when the device was lost;
+    /// not at all when the last handle went before. NotMapped for a buffer without MapRead and MapWrite.
+    Result<void> mapAsync(std::function<void(std::span<std::byte>)> ready) const;
 };
 
 /// Memory that several textures share, each at its own place. See TextureDescriptor::heap.
