@@ -59,5 +59,6 @@ configure() {
 # lavapipe compiles a shader at its first draw, some of them for seconds: keep the results between runs.
 useShaderCache() {
     export MESA_SHADER_CACHE_DIR="${MESA_SHADER_CACHE_DIR:-${root:?}/build/shader-cache}"
+    export PELAGE_CACHE="${PELAGE_CACHE:-${root:?}/build/pipeline-cache}"
     mkdir -p "$MESA_SHADER_CACHE_DIR"
 }

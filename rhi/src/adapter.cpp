@@ -89,6 +89,9 @@ std::shared_ptr<AdapterObject> inspectAdapter(std::shared_ptr<InstanceObject> in
     auto adapter = std::make_shared<AdapterObject>();
     adapter->handle = device;
     adapter->driverId = p12.driverID;
+    adapter->driverVersion = p.properties.driverVersion;
+    std::copy(std::begin(p.properties.pipelineCacheUUID), std::end(p.properties.pipelineCacheUUID),
+              adapter->cacheIdentity.begin());
     adapter->queueFamily = static_cast<std::uint32_t>(family - queues.begin());
     adapter->lineRasterization = lineExtension && lines.rectangularLines != 0;
     adapter->swapchain = instance->surfaces && has(VK_KHR_SWAPCHAIN_EXTENSION_NAME);

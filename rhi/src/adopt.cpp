@@ -112,7 +112,9 @@ Result<std::shared_ptr<DeviceObject>> adoptDevice(const vulkan::AdoptDescriptor&
     if (!contains(d.features, Feature::WideLines)) device->info.limits.maxLineWidth = 1;
     device->onUncapturedError = d.onUncapturedError;
     device->onDeviceLost = d.onDeviceLost;
-    device->toggles = togglesFor((*adapter)->driverId);
+    auto toggles = togglesFor((*adapter)->driverId, (*adapter)->driverVersion, d.toggles, title);
+    if (!toggles) return forward(toggles.error());
+    device->toggles = *toggles;
     const auto on = readChain(d.enabledFeatures);
     device->depthClamp = on.f10.features.depthClamp != 0;
     device->rectangularLines = on.lines.rectangularLines != 0;
@@ -122,7 +124,7 @@ Result<std::shared_ptr<DeviceObject>> adoptDevice(const vulkan::AdoptDescriptor&
     device->queue.handle = d.queue;
     device->queue.hostLock = d.queueLock;
     device->handle = d.device;
-    if (auto opened = openDevice(*device); !opened) return forward(opened.error());
+    if (auto opened = openDevice(*device, d.pipelines); !opened) return forward(opened.error());
     device->onRelease = d.onRelease;
     return device;
 }

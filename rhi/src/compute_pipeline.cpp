@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline.hpp"
+#include "pipeline_cache.hpp"
 
 namespace pelage::rhi {
 namespace detail {
@@ -19,10 +20,13 @@ Result<ComputePipeline> makeComputePipeline(const std::shared_ptr<DeviceObject>&
     VkComputePipelineCreateInfo info = {VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO};
     info.stage = stage->create();
     info.layout = object->layout->handle;
+    CreationFeedback feedback;
+    info.pNext = feedback.chain(nullptr);
     if (const auto r = device->functions.vkCreateComputePipelines(device->handle, device->pipelineCache, 1, &info,
                                                                   device->allocator, &object->handle);
         r != VK_SUCCESS)
         return forward(vulkanError(r, "vkCreateComputePipelines", object->describe()));
+    feedback.count(*device);
     object->key = key;
     ++device->livePipelines;
     device->nameObject(VK_OBJECT_TYPE_PIPELINE, object->handle, d.label);

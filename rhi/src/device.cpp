@@ -2,6 +2,7 @@
 // Making a device: features are asked for and granted by name, and what Pelage always needs is always on.
 #include "device_object.hpp"
 #include "features.hpp"
+#include "pipeline_cache.hpp"
 #include "recording.hpp"
 
 namespace pelage::rhi {
@@ -16,16 +17,7 @@ Result<void> needSameDevice(const Object& object, const DeviceObject& device) {
                                                "\"], not to [Device \"", device.label, "\"]."));
 }
 
-Toggles togglesFor(VkDriverId driver) {
-    Toggles toggles;
-    if (driver == VK_DRIVER_ID_MESA_LLVMPIPE) {
-        toggles.barrierAfterBeginTimestamp = true;
-        toggles.resolveToFirstLayerOnly = true;
-    }
-    return toggles;
-}
-
-Result<void> openDevice(DeviceObject& device) {
+Result<void> openDevice(DeviceObject& device, const BlobCache& pipelines) {
     const auto title = cat("[Device \"", device.label, "\"]");
     const auto& instance = device.adapter->instance->vk;
     auto& vk = device.functions;
@@ -47,12 +39,7 @@ Result<void> openDevice(DeviceObject& device) {
     if (const auto r = vk.vkCreateSemaphore(device.handle, &semaphore, device.allocator, &device.queue.timeline);
         r != VK_SUCCESS)
         return forward(vulkanError(r, "vkCreateSemaphore", title));
-    if (device.pipelineCache == VK_NULL_HANDLE) {
-        VkPipelineCacheCreateInfo cache = {VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO};
-        if (const auto r = vk.vkCreatePipelineCache(device.handle, &cache, device.allocator, &device.pipelineCache);
-            r != VK_SUCCESS)
-            return forward(vulkanError(r, "vkCreatePipelineCache", title));
-    }
+    if (auto ok = openPipelineCache(device, pipelines); !ok) return ok;
     device.queue.uploads = std::make_unique<Recording>();
     device.recordings = std::make_unique<RecordingPool>();
     device.nameObject(VK_OBJECT_TYPE_SEMAPHORE, device.queue.timeline, device.label + " timeline");
@@ -82,7 +69,9 @@ Result<std::shared_ptr<DeviceObject>> makeDevice(const std::shared_ptr<AdapterOb
     if (!contains(granted, Feature::WideLines)) device->info.limits.maxLineWidth = 1;
     device->onUncapturedError = descriptor.onUncapturedError;
     device->onDeviceLost = descriptor.onDeviceLost;
-    device->toggles = togglesFor(adapter->driverId);
+    auto toggles = togglesFor(adapter->driverId, adapter->driverVersion, descriptor.toggles, title);
+    if (!toggles) return forward(toggles.error());
+    device->toggles = *toggles;
 
     vulkan::FeatureChain features;
     enableFeatures(*adapter, granted, features);
@@ -104,7 +93,7 @@ Result<std::shared_ptr<DeviceObject>> makeDevice(const std::shared_ptr<AdapterOb
     if (const auto r = adapter->instance->vk.vkCreateDevice(adapter->handle, &info, nullptr, &handle); r != VK_SUCCESS)
         return forward(vulkanError(r, "vkCreateDevice", title));
     device->handle = handle;
-    if (auto opened = openDevice(*device); !opened) return forward(opened.error());
+    if (auto opened = openDevice(*device, descriptor.pipelines); !opened) return forward(opened.error());
     return device;
 }
 
@@ -139,8 +128,9 @@ bool Device::supports(TextureFormat format, TextureUsage usage, std::uint32_t sa
 Device::MemoryStatistics Device::memoryStatistics() const {
     if (!object_) return {};
     const auto c = object_->memory.counters();
-    return {c.allocatedBytes,     c.usedBytes,           c.allocations,         c.blocks,
-            object_->liveBuffers, object_->liveTextures, object_->livePipelines};
+    return {c.allocatedBytes,        c.usedBytes,           c.allocations,          c.blocks,
+            object_->liveBuffers,    object_->liveTextures, object_->livePipelines, object_->pipelinesMade,
+            object_->pipelinesCached};
 }
 
 }  // namespace pelage::rhi

@@ -9,6 +9,7 @@
 
 #include "block_pool.hpp"
 #include "objects.hpp"
+#include "toggles.hpp"
 
 #include <pelage/rhi/vulkan.hpp>
 
@@ -33,21 +34,14 @@ struct AdapterObject {
     VkPhysicalDevice handle = VK_NULL_HANDLE;
     AdapterInfo info;
     VkDriverId driverId = {};
+    std::uint32_t driverVersion = 0;
+    std::array<std::uint8_t, VK_UUID_SIZE> cacheIdentity = {};
     std::uint32_t queueFamily = 0;
     VkPhysicalDeviceMemoryProperties memory = {};
     bool lineRasterization = false, swapchain = false;
 };
 /// Null when the physical device is below what Pelage always needs.
 std::shared_ptr<AdapterObject> inspectAdapter(std::shared_ptr<InstanceObject> instance, VkPhysicalDevice device);
-
-/// Driver faults we work around, by name; filled in one place.
-struct Toggles {
-    /// A timestamp is binned with the tiles, so work that follows it at once runs before it (rhi facts L3).
-    bool barrierAfterBeginTimestamp = false;
-    /// A dynamic-rendering resolve into an array layer above 0 writes nothing (L1); such passes are refused.
-    bool resolveToFirstLayerOnly = false;
-};
-Toggles togglesFor(VkDriverId driver);
 
 struct CommandSlot {  // a pool and its one command buffer, recycled
     VkCommandPool pool = VK_NULL_HANDLE;
@@ -125,6 +119,8 @@ struct DeviceObject : std::enable_shared_from_this<DeviceObject> {
     MemoryAllocator memory;
     QueueState queue;
     VkPipelineCache pipelineCache = VK_NULL_HANDLE;
+    BlobCache blobs;
+    std::atomic<std::uint32_t> pipelinesMade{0}, pipelinesCached{0}, pipelinesSinceStore{0};
 
     std::mutex scopeMutex;
     std::vector<std::optional<Error>> scopes;
@@ -154,7 +150,7 @@ struct DeviceObject : std::enable_shared_from_this<DeviceObject> {
 };
 
 /// Loads the functions of device.handle and makes what every device has. What is there already is kept.
-Result<void> openDevice(DeviceObject& device);
+Result<void> openDevice(DeviceObject& device, const BlobCache& pipelines);
 Result<std::shared_ptr<InstanceObject>> makeInstance(const InstanceDescriptor& descriptor,
                                                      PFN_vkGetInstanceProcAddr getProcAddr);
 /// Loads the functions of instance.handle.

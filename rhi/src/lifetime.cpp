@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // How objects end: what the queue may still use waits in the graveyard for its timeline value.
 #include "device_object.hpp"
+#include "pipeline_cache.hpp"
 #include "recording.hpp"
 
 #include <algorithm>
@@ -29,6 +30,7 @@ DeviceObject::~DeviceObject() {
             memory.release(chunk.allocation);
         }
         for (auto* pool : pools) f.vkDestroyDescriptorPool(handle, pool, allocator);
+        storePipelineCache(*this);
         if (pipelineCache != VK_NULL_HANDLE && !hostPipelineCache)
             f.vkDestroyPipelineCache(handle, pipelineCache, allocator);
         f.vkDestroySemaphore(handle, queue.timeline, allocator);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "pipeline.hpp"
+#include "pipeline_cache.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -250,9 +251,12 @@ Result<void> build(const RenderPipelineDescriptor& d, RenderPipelineObject& obje
     info.pColorBlendState = &blend;
     info.pDynamicState = &dynamic;
     info.layout = object.layout->handle;
+    CreationFeedback feedback;
+    info.pNext = feedback.chain(info.pNext);
     const auto r = device.functions.vkCreateGraphicsPipelines(device.handle, device.pipelineCache, 1, &info,
                                                               device.allocator, &object.handle);
     if (r != VK_SUCCESS) return forward(vulkanError(r, "vkCreateGraphicsPipelines", object.describe()));
+    feedback.count(device);
     return {};
 }
 

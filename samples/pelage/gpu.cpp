@@ -2,11 +2,22 @@
 #include "gpu.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <utility>
 
 namespace pelage::app {
 
 namespace {
+
+/// PELAGE_CACHE, or the user's cache; without either, nothing is kept.
+rhi::BlobCache pipelineCache() {
+    const char* chosen = std::getenv("PELAGE_CACHE");
+    if (chosen != nullptr) return *chosen != 0 ? rhi::fileCache(chosen) : rhi::BlobCache();
+    if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache != 0)
+        return rhi::fileCache(std::string(cache) + "/pelage");
+    const char* home = std::getenv("HOME");
+    return home != nullptr && *home != 0 ? rhi::fileCache(std::string(home) + "/.cache/pelage") : rhi::BlobCache();
+}
 
 std::string adapterNames(const rhi::Instance& instance) {
     std::string names;
@@ -48,7 +59,7 @@ Outcome<void> openDevice(Gpu& gpu, const DeviceOptions& options, const rhi::Surf
         return tl::unexpected(Failure("A030: no device has \"" + options.name + "\" in its name; there are " + names));
     }
     gpu.adapter = *adapter;
-    auto device = gpu.adapter.requestDevice({.label = "pelage"});
+    auto device = gpu.adapter.requestDevice({.label = "pelage", .pipelines = pipelineCache()});
     if (!device) return tl::unexpected(Failure(device.error()));
     gpu.device = *device;
     return {};

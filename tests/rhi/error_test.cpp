@@ -54,6 +54,7 @@ TEST_F(Errors, EveryCodeIsProvoked) {
     device.pushErrorScope();
     std::map<ErrorCode, Error> seen;
     const auto note = [&](const Error& e) { seen[e.code] = e; };
+    note(error(gpu.adapter.requestDevice({.toggles = {{"noSuchToggle"}}})));
     {
         const Variable hidden("VK_LAYER_PATH", "/nonexistent");
         note(error(Instance::create({.validation = true})));

@@ -28,8 +28,8 @@ struct Touch {
     VkPipelineStageFlags2 stages = 0;
     VkAccessFlags2 access = 0;
     bool write = false;
-    bool needsContents = false;    // somebody must have written it before
-    std::uint64_t scope = 0;       // accesses of one scope (the draws of a pass) are not ordered among themselves; 0: none
+    bool needsContents = false;  // somebody must have written it before
+    std::uint64_t scope = 0;  // accesses of one scope (the draws of a pass) are not ordered among themselves; 0: none
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  // in which the image must be; UNDEFINED: not asked
 };
 

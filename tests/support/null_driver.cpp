@@ -111,6 +111,7 @@ VkResult F::vkEnumeratePhysicalDevices(VkInstance instance, std::uint32_t* count
 void F::vkGetPhysicalDeviceProperties2(VkPhysicalDevice device, VkPhysicalDeviceProperties2* out) {
     auto& p = out->properties;
     p.apiVersion = VK_API_VERSION_1_3;
+    p.driverVersion = driverOf(device).driverVersion;
     p.deviceType = VK_PHYSICAL_DEVICE_TYPE_CPU;
     std::strcpy(p.deviceName, "null");
     auto& l = p.limits;
@@ -310,6 +311,12 @@ VkResult F::vkCreateImageView(VkDevice device, const VkImageViewCreateInfo* info
 // --- Shaders, layouts, sets and pipelines.
 
 namespace {
+std::uint64_t hashOf(const void* data, std::size_t size, std::uint64_t seed) {
+    std::uint64_t h = seed ^ 0xcbf29ce484222325ULL;
+    for (std::size_t i = 0; i < size; ++i) h = (h ^ static_cast<const unsigned char*>(data)[i]) * 0x100000001b3ULL;
+    return h;
+}
+
 /// Which bindings a module reads and writes, found by SPIRV-Cross and not by the library's own reflection.
 std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<bool, bool>> usesOf(const VkShaderModuleCreateInfo& info) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, std::pair<bool, bool>> uses;
@@ -340,6 +347,7 @@ VkResult F::vkCreateShaderModule(VkDevice device, const VkShaderModuleCreateInfo
     PELAGE_NULL_LOCK(device);
     PELAGE_NULL_FAIL(vkCreateShaderModule);
     const auto handle = d.make("VkShaderModule");
+    d.moduleHashes_[handle] = hashOf(info->pCode, info->codeSize, 0);
     auto& uses = d.modules_[handle];
     for (const auto& [place, use] : usesOf(*info)) uses[place] = {0, use.first, use.second};
     *out = reinterpret_cast<VkShaderModule>(handle);
@@ -402,6 +410,43 @@ void F::vkUpdateDescriptorSets(VkDevice device, std::uint32_t count, const VkWri
         }
     }
 }
+std::uint64_t F::hashStage(const NullDriver& d, const VkPipelineShaderStageCreateInfo& stage, std::uint64_t seed) {
+    const std::uint64_t module = d.moduleHashes_.at(id(stage.module));
+    seed = hashOf(&module, sizeof module, seed);
+    if (const auto* s = stage.pSpecializationInfo; s != nullptr) seed = hashOf(s->pData, s->dataSize, seed);
+    return seed;
+}
+void F::compile(NullDriver& d, VkPipelineCache cache, std::uint64_t hash, const void* chain) {
+    const bool hit = !d.caches_[id(cache)].insert(hash).second;
+    d.pipelinesCompiled += hit ? 0 : 1;
+    for (const auto* next = static_cast<const VkBaseInStructure*>(chain); next != nullptr; next = next->pNext)
+        if (next->sType == VK_STRUCTURE_TYPE_PIPELINE_CREATION_FEEDBACK_CREATE_INFO)
+            reinterpret_cast<const VkPipelineCreationFeedbackCreateInfo*>(next)->pPipelineCreationFeedback->flags =
+                VK_PIPELINE_CREATION_FEEDBACK_VALID_BIT |
+                static_cast<VkPipelineCreationFeedbackFlags>(
+                    hit ? VK_PIPELINE_CREATION_FEEDBACK_APPLICATION_PIPELINE_CACHE_HIT_BIT : 0);
+}
+VkResult F::vkCreatePipelineCache(VkDevice device, const VkPipelineCacheCreateInfo* info, const VkAllocationCallbacks*,
+                                  VkPipelineCache* out) {
+    PELAGE_NULL_LOCK(device);
+    PELAGE_NULL_FAIL(vkCreatePipelineCache);
+    const auto handle = d.make("VkPipelineCache");
+    const auto* first = static_cast<const std::uint64_t*>(info->pInitialData);
+    if (info->initialDataSize != 0) d.caches_[handle].insert(first, first + info->initialDataSize / 8);
+    *out = reinterpret_cast<VkPipelineCache>(handle);
+    return VK_SUCCESS;
+}
+VkResult F::vkGetPipelineCacheData(VkDevice device, VkPipelineCache cache, std::size_t* size, void* out) {
+    PELAGE_NULL_LOCK(device);
+    PELAGE_NULL_FAIL(vkGetPipelineCacheData);
+    const auto& all = d.caches_[id(cache)];
+    const std::vector<std::uint64_t> list(all.begin(), all.end());
+    if (out == nullptr)
+        *size = list.size() * 8;
+    else
+        std::memcpy(out, list.data(), std::min(*size, list.size() * 8));
+    return VK_SUCCESS;
+}
 void F::addPipeline(NullDriver& d, std::uint64_t pipeline, const VkPipelineShaderStageCreateInfo& stage) {
     const auto flags = stage.stage == VK_SHADER_STAGE_VERTEX_BIT     ? VK_PIPELINE_STAGE_2_VERTEX_SHADER_BIT
                        : stage.stage == VK_SHADER_STAGE_FRAGMENT_BIT ? VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT
@@ -414,21 +459,26 @@ void F::addPipeline(NullDriver& d, std::uint64_t pipeline, const VkPipelineShade
     }
     d.pipelines_.try_emplace(pipeline);
 }
-VkResult F::vkCreateGraphicsPipelines(VkDevice device, VkPipelineCache, std::uint32_t,
+VkResult F::vkCreateGraphicsPipelines(VkDevice device, VkPipelineCache cache, std::uint32_t,
                                       const VkGraphicsPipelineCreateInfo* info, const VkAllocationCallbacks*,
                                       VkPipeline* out) {
     PELAGE_NULL_LOCK(device);
     PELAGE_NULL_FAIL(vkCreateGraphicsPipelines);
     const auto handle = d.make("VkPipeline");
     ++d.pipelinesCreated;
-    for (std::uint32_t i = 0; i < info->stageCount; ++i) addPipeline(d, handle, info->pStages[i]);
+    std::uint64_t hash = 0;
+    for (std::uint32_t i = 0; i < info->stageCount; ++i) {
+        addPipeline(d, handle, info->pStages[i]);
+        hash = hashStage(d, info->pStages[i], hash);
+    }
+    compile(d, cache, hash, info->pNext);
     const auto& input = *info->pVertexInputState;
     for (std::uint32_t i = 0; i < input.vertexBindingDescriptionCount; ++i)
         d.vertexBindings_[handle].push_back(input.pVertexBindingDescriptions[i].binding);
     *out = reinterpret_cast<VkPipeline>(handle);
     return VK_SUCCESS;
 }
-VkResult F::vkCreateComputePipelines(VkDevice device, VkPipelineCache, std::uint32_t,
+VkResult F::vkCreateComputePipelines(VkDevice device, VkPipelineCache cache, std::uint32_t,
                                      const VkComputePipelineCreateInfo* info, const VkAllocationCallbacks*,
                                      VkPipeline* out) {
     PELAGE_NULL_LOCK(device);
@@ -436,6 +486,7 @@ VkResult F::vkCreateComputePipelines(VkDevice device, VkPipelineCache, std::uint
     const auto handle = d.make("VkPipeline");
     ++d.pipelinesCreated;
     addPipeline(d, handle, info->stage);
+    compile(d, cache, hashStage(d, info->stage, 1), info->pNext);
     *out = reinterpret_cast<VkPipeline>(handle);
     return VK_SUCCESS;
 }
@@ -474,7 +525,6 @@ VkResult F::vkWaitSemaphores(VkDevice device, const VkSemaphoreWaitInfo* info, s
 PELAGE_NULL_SIMPLE(Sampler)
 PELAGE_NULL_SIMPLE(DescriptorPool)
 PELAGE_NULL_SIMPLE(PipelineLayout)
-PELAGE_NULL_SIMPLE(PipelineCache)
 PELAGE_NULL_SIMPLE(QueryPool)
 #undef PELAGE_NULL_SIMPLE
 

@@ -35,13 +35,16 @@ public:
     const std::vector<std::string>& calls() const { return calls_; }
     std::optional<std::string> failed() const { return failed_; }
     VkDriverId driverId = VK_DRIVER_ID_MESA_RADV;
-    bool keepCommands = true;  // false: neither commands nor the names of calls are kept, and nothing is allocated for them
+    std::uint32_t driverVersion = VK_MAKE_API_VERSION(0, 1, 0, 0);
+    bool keepCommands =
+        true;  // false: neither commands nor the names of calls are kept, and nothing is allocated for them
     /// Sees the commands of each submission, in order. `dropBarrier`: the barrier call (counted from 0, since `oracle`
     /// was set) that the oracle does not see.
     HazardOracle* oracle = nullptr;
     std::optional<std::uint64_t> dropBarrier;
     std::uint64_t barrierCalls = 0;
     std::uint64_t submissions = 0, memoryAllocations = 0, pipelinesCreated = 0;
+    std::uint64_t pipelinesCompiled = 0;  // those that were in no pipeline cache
     /// Objects that were made and not destroyed, "VkBuffer 12": empty at the end of a device.
     std::vector<std::string> alive() const;
     /// Calls that no correct program makes: an object destroyed twice, or used after it.
@@ -102,7 +105,9 @@ private:
     std::unordered_map<std::uint64_t, std::map<std::uint32_t, VkDescriptorType>> setLayouts_;
     std::unordered_map<std::uint64_t, Set> sets_;
     std::unordered_map<std::uint64_t, std::set<std::uint64_t>> poolSets_;
-    std::unordered_map<std::uint64_t, std::uint64_t> semaphores_;  // timeline values
+    std::unordered_map<std::uint64_t, std::uint64_t> moduleHashes_;
+    std::unordered_map<std::uint64_t, std::set<std::uint64_t>> caches_;  // hashes of pipelines
+    std::unordered_map<std::uint64_t, std::uint64_t> semaphores_;        // timeline values
     std::unordered_map<std::uint64_t, std::vector<std::shared_ptr<Commands>>> pools_;
 };
 

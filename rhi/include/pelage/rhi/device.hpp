@@ -39,10 +39,28 @@ struct AdapterInfo {
     Limits limits = {};
 };
 
+/// Where a device keeps what its driver made of pipelines, so that the next start need not make it again. The key names
+/// the driver and its version. Both functions may be empty; they are called from the thread that opens or ends the
+/// device, or calls Device::storePipelines().
+struct BlobCache {
+    std::function<std::vector<std::byte>(const std::string& key)> load = {};
+    std::function<void(const std::string& key, std::span<const std::byte> bytes)> store = {};
+};
+/// One file for each key in a directory, which is made when needed. What cannot be read or written is left out.
+BlobCache fileCache(const std::string& directory);
+
+/// Switches a workaround for a driver's fault (the names are in Device::toggles() and in the error for an unknown one).
+struct Toggle {
+    std::string name = {};
+    bool on = true;
+};
+
 struct DeviceDescriptor {
     std::string label = "device";
     Feature requiredFeatures = Feature::None;  // absent ones are an error that names them all
     Feature optionalFeatures = Feature::WideLines | Feature::PipelineStatistics | Feature::Timestamps;
+    BlobCache pipelines = {};
+    std::vector<Toggle> toggles = {};  // those that are not to be as the driver asks for
     /// Errors that no error scope caught. Default: written to the instance's onMessage as an Error.
     std::function<void(const Error&)> onUncapturedError = {};
     /// Called once, with the first error that says so, maybe inside a lock of the device: do not call it from there.
@@ -112,9 +130,16 @@ public:
     /// The first error since the matching pushErrorScope, if any.
     std::optional<Error> popErrorScope() const;
 
+    /// Names of the workarounds that are on.
+    std::vector<std::string> toggles() const;
+    /// Gives new pipelines to DeviceDescriptor::pipelines; done by itself when the device ends.
+    void storePipelines() const;
+
     struct MemoryStatistics {
         std::uint64_t allocatedBytes = 0, usedBytes = 0;  // taken from the driver; bound to live resources
         std::uint32_t allocations = 0, blocks = 0, liveBuffers = 0, liveTextures = 0, livePipelines = 0;
+        /// Pipelines that the driver was asked for, and those that it had in its cache (as far as it says).
+        std::uint32_t pipelinesMade = 0, pipelinesCached = 0;
     };
     MemoryStatistics memoryStatistics() const;
 };

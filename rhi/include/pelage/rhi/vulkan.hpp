@@ -90,6 +90,8 @@ struct AdoptDescriptor {
     bool singleThreaded = false;  // true: nobody else touches the queue while we do, so no lock is needed
     const VkAllocationCallbacks* allocator = nullptr;  // host memory of the driver; outlives the device
     VkPipelineCache pipelineCache = VK_NULL_HANDLE;    // used instead of one of our own; stays the host's
+    BlobCache pipelines = {};                          // when there is none of the host's
+    std::vector<Toggle> toggles = {};
     MessageCallback onMessage = {};
     std::function<void(const Error&)> onUncapturedError = {};
     std::function<void(const Error&)> onDeviceLost = {};
