@@ -93,12 +93,17 @@ std::string joined(const std::vector<std::string>& lines) {
 std::string passTable(const Plan& plan) {
     std::string out = "<table>\n<tr><th>pass</th><th>reads</th><th>writes or changes</th><th>waits for</th></tr>\n";
     const auto waits = waitsOf(plan);
+    const auto taken = memoryTaken(plan);
     for (std::size_t i = 0; i < plan.passes.size(); ++i) {
         const PlanPass& pass = plan.passes[i];
         std::vector<std::string> reads, writes, waitsFor;
         for (const PlanSlot& slot : pass.slots)
             (slot.access == SlotAccess::Read ? reads : writes).push_back(slotText(plan, slot));
         for (const PlanWait& wait : waits[i]) waitsFor.push_back(waitText(plan, pass, wait));
+        for (const MemoryTaken& each : taken[i]) {
+            waitsFor.push_back(escaped(plan.resources[each.image].name) + " takes bytes of " +
+                               escaped(plan.resources[each.from].name));
+        }
         out += "<tr><td>" + std::to_string(i + 1) + ". <b>" + escaped(pass.name) + "</b></td><td>" + joined(reads) +
                "</td><td>" + joined(writes) + "</td><td>" + joined(waitsFor) + "</td></tr>\n";
     }

@@ -78,4 +78,20 @@ std::vector<std::vector<PlanWait>> waitsOf(const Plan& plan) {
     return waits;
 }
 
+std::vector<std::vector<MemoryTaken>> memoryTaken(const Plan& plan) {
+    std::vector<std::vector<MemoryTaken>> taken(plan.passes.size());
+    for (std::uint32_t i = 0; i < plan.resources.size(); ++i) {
+        const PlanResource& image = plan.resources[i];
+        if (image.heapOffset == notPlaced) continue;
+        for (std::uint32_t k = 0; k < plan.resources.size(); ++k) {
+            const PlanResource& before = plan.resources[k];
+            if (before.heapOffset == notPlaced || before.lastPass >= image.firstPass) continue;
+            const bool meet = before.heapOffset < image.heapOffset + image.heapBytes &&
+                              image.heapOffset < before.heapOffset + before.heapBytes;
+            if (meet) taken[image.firstPass].push_back({i, k});
+        }
+    }
+    return taken;
+}
+
 }  // namespace pelage::passes

@@ -26,8 +26,14 @@ struct PlanWait {
     std::uint32_t after = ~0U;      // the pass
     SlotUse from = SlotUse::Color;  // how that pass used it; another use is another layout
 };
-/// By pass. Derived from the plan alone: rhi joins the waits of one pass into one barrier, and adds those of memory
-/// that changes hands.
+/// By pass. Derived from the plan alone: rhi joins the waits of one pass into one barrier.
 std::vector<std::vector<PlanWait>> waitsOf(const Plan& plan);
+
+/// An image that takes over bytes of one that lived before it, as indices into Plan::resources: a wait as well.
+struct MemoryTaken {
+    std::uint32_t image = ~0U, from = ~0U;
+};
+/// By pass: of the images that begin there.
+std::vector<std::vector<MemoryTaken>> memoryTaken(const Plan& plan);
 
 }  // namespace pelage::passes

@@ -49,6 +49,27 @@ TEST(Page, HoldsEveryPassImageByteRangeAndReason) {
     }
 }
 
+TEST(Page, SaysWhoseBytesAnImageTakesOver) {
+    const Plan made = plan(wholeGrammar(), host());
+    std::size_t handovers = 0;
+    const auto taken = memoryTaken(made);
+    const std::string page = html(made);
+    for (std::size_t i = 0; i < taken.size(); ++i) {
+        for (const MemoryTaken& each : taken[i]) {
+            const PlanResource &image = made.resources[each.image], &from = made.resources[each.from];
+            EXPECT_EQ(image.firstPass, i);
+            EXPECT_LT(from.lastPass, i);
+            EXPECT_LT(std::max(image.heapOffset, from.heapOffset),
+                      std::min(image.heapOffset + image.heapBytes, from.heapOffset + from.heapBytes));
+            EXPECT_NE(page.find(image.name + " takes bytes of " + from.name), std::string::npos);
+            ++handovers;
+        }
+    }
+    // Less than each image would take for itself, so bytes change hands.
+    EXPECT_LT(made.heapBytes, made.naiveBytes);
+    EXPECT_GT(handovers, 0U);
+}
+
 TEST(Page, SharesAreOfTheWholeFrame) {
     const Plan made = plan(wholeGrammar(), host());
     ASSERT_GE(made.passes.size(), 2U);
