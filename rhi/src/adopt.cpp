@@ -48,6 +48,19 @@ Result<std::shared_ptr<AdapterObject>> hostAdapter(const std::shared_ptr<Instanc
                     "timelineSemaphore, independentBlend and a queue with graphics and compute are needed."));
 }
 
+/// Those of the optional features that the device has and the host's chain enables.
+Feature enabledOf(const AdapterObject& adapter, Feature optional, const vulkan::FeatureChain& given) {
+    Feature granted = Feature::None;
+    for (std::uint32_t bit = 1; bit != 0 && bit <= static_cast<std::uint32_t>(optional); bit <<= 1) {
+        const auto one = static_cast<Feature>(bit);
+        if (!contains(optional, one) || !contains(adapter.info.features, one)) continue;
+        vulkan::FeatureChain needed;
+        enableFeatures(adapter, one, needed);
+        if (missingFeatures(needed, given).empty()) granted = granted | one;
+    }
+    return granted;
+}
+
 Result<void> checkWanted(const AdapterObject& adapter, Feature wanted) {
     const auto absent =
         static_cast<Feature>(static_cast<std::uint32_t>(wanted) & ~static_cast<std::uint32_t>(adapter.info.features));
@@ -108,14 +121,14 @@ Result<std::shared_ptr<DeviceObject>> adoptDevice(const vulkan::AdoptDescriptor&
     device->adapter = *adapter;
     device->label = d.label;
     device->info = (*adapter)->info;
-    device->info.features = d.features;
-    if (!contains(d.features, Feature::WideLines)) device->info.limits.maxLineWidth = 1;
+    const auto on = readChain(d.enabledFeatures);
+    device->info.features = d.features | enabledOf(**adapter, d.optionalFeatures, on);
+    if (!contains(device->info.features, Feature::WideLines)) device->info.limits.maxLineWidth = 1;
     device->onUncapturedError = d.onUncapturedError;
     device->onDeviceLost = d.onDeviceLost;
     auto toggles = togglesFor((*adapter)->driverId, (*adapter)->driverVersion, d.toggles, title);
     if (!toggles) return forward(toggles.error());
     device->toggles = *toggles;
-    const auto on = readChain(d.enabledFeatures);
     device->depthClamp = on.f10.features.depthClamp != 0;
     device->rectangularLines = on.lines.rectangularLines != 0;
     device->allocator = d.allocator;
@@ -135,7 +148,7 @@ Result<std::shared_ptr<DeviceObject>> adoptDevice(const vulkan::AdoptDescriptor&
 namespace vulkan {
 
 Result<Needs> needs(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance, VkPhysicalDevice physicalDevice,
-                    Feature wanted) {
+                    Feature wanted, Feature optional) {
     if (getInstanceProcAddr == nullptr) return detail::empty("getInstanceProcAddr");
     if (instance == VK_NULL_HANDLE) return detail::empty("the instance");
     if (physicalDevice == VK_NULL_HANDLE) return detail::empty("the physical device");
@@ -144,7 +157,7 @@ Result<Needs> needs(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance in
     if (auto ok = detail::checkWanted(**adapter, wanted); !ok) return detail::forward(ok.error());
     Needs result;
     result.deviceExtensions = detail::deviceExtensions(**adapter);
-    detail::enableFeatures(**adapter, wanted, result.features);
+    detail::enableFeatures(**adapter, wanted | (optional & (*adapter)->info.features), result.features);
     return result;
 }
 

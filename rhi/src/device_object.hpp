@@ -84,6 +84,8 @@ struct DeviceObject : std::enable_shared_from_this<DeviceObject> {
     /// Runs `destroy` once the timeline has reached `value`; at once when it has.
     void bury(std::uint64_t value, std::function<void(DeviceObject&)> destroy);
     void collect();
+    /// Waits for everything on the queue; its host's lock is held.
+    void drain() const;
     std::uint64_t completed();
     /// A submission (or ticket) of this value exists from now on; completed() will not pass it before it is done.
     void began(std::uint64_t value, bool ticket);

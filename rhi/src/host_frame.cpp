@@ -54,12 +54,12 @@ Result<vulkan::Ticket> record(DeviceObject& device, VkCommandBuffer commands,
         texture.markUsed(value);
         const auto layout = t.after.layout;
         if (layout == VK_IMAGE_LAYOUT_UNDEFINED) continue;
-        replay.handOver(texture, {t.after.stages, t.after.access, layout, (t.after.access & writeAccess) != 0});
+        // As a write: whatever the host does next waits for our readers as well.
+        replay.handOver(texture, {t.after.stages, t.after.access, layout, true});
     }
     for (const auto& b : buffers) {
         b.buffer.get()->markUsed(value);
-        replay.handOver(*b.buffer.get(), {b.after.stages, b.after.access, VK_IMAGE_LAYOUT_UNDEFINED,
-                                          (b.after.access & writeAccess) != 0});
+        replay.handOver(*b.buffer.get(), {b.after.stages, b.after.access, VK_IMAGE_LAYOUT_UNDEFINED, true});
     }
     replay.finish(nullptr);
     device.began(value, true);

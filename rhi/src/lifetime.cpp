@@ -15,7 +15,7 @@ DeviceObject::~DeviceObject() {
     if (f.vkDeviceWaitIdle != nullptr && queue.timeline != VK_NULL_HANDLE) {
         {
             const HostLock lock(queue);
-            f.vkDeviceWaitIdle(handle);
+            drain();
         }
         queue.uploads.reset();  // writes that no submission carried are dropped
         while (!graves.empty()) {
@@ -38,6 +38,14 @@ DeviceObject::~DeviceObject() {
     }
     if (!adopted && f.vkDestroyDevice != nullptr) f.vkDestroyDevice(handle, nullptr);
     if (onRelease) onRelease();
+}
+
+void DeviceObject::drain() const {
+    // A host's device may have queues that other threads use right now; only this one is locked.
+    if (adopted)
+        functions.vkQueueWaitIdle(queue.handle);
+    else
+        functions.vkDeviceWaitIdle(handle);
 }
 
 void DeviceObject::bury(std::uint64_t value, std::function<void(DeviceObject&)> destroy) {

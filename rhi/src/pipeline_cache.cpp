@@ -3,6 +3,8 @@
 // in the key, so that another driver, or another version of it, finds nothing.
 #include "pipeline_cache.hpp"
 
+#include <unistd.h>
+
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -86,7 +88,8 @@ void CreationFeedback::count(DeviceObject& device) const {
 }
 
 void storePipelineCache(DeviceObject& device) {
-    if (!device.blobs.store || device.pipelineCache == VK_NULL_HANDLE || device.pipelinesSinceStore == 0) return;
+    if (!device.blobs.store || device.pipelineCache == VK_NULL_HANDLE || device.pipelinesSinceStore.exchange(0) == 0)
+        return;
     const auto& vk = device.functions;
     std::size_t size = 0;
     if (vk.vkGetPipelineCacheData(device.handle, device.pipelineCache, &size, nullptr) != VK_SUCCESS || size == 0)
@@ -100,7 +103,6 @@ void storePipelineCache(DeviceObject& device) {
     header.size = size;
     header.checksum = fnv1a(std::span(bytes).subspan(sizeof header));
     std::memcpy(bytes.data(), &header, sizeof header);
-    device.pipelinesSinceStore = 0;
     device.blobs.store(keyOf(*device.adapter), bytes);
 }
 
@@ -123,13 +125,17 @@ BlobCache fileCache(const std::string& directory) {
         // Under another name first: a program that ends half way leaves the old file whole.
         std::error_code ignored;
         fs::create_directories(directory, ignored);
-        const fs::path path = fs::path(directory) / key, part = path.string() + ".part";
-        {
-            std::ofstream file(part, std::ios::binary | std::ios::trunc);
-            file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-            if (!file) return;
-        }
-        fs::rename(part, path, ignored);
+        // The address tells two devices of one process apart, the process number two processes.
+        std::ostringstream own;
+        own << '.' << ::getpid() << '.' << bytes.data();
+        const fs::path path = fs::path(directory) / key, part = path.string() + own.str();
+        std::ofstream file(part, std::ios::binary | std::ios::trunc);
+        file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+        file.close();
+        if (file)
+            fs::rename(part, path, ignored);
+        else
+            fs::remove(part, ignored);
     };
     return cache;
 }

@@ -43,7 +43,10 @@ void Replay::beginRendering(const RenderPassPacket& pass) {
         info.loadOp = a.load == LoadOp::Load    ? VK_ATTACHMENT_LOAD_OP_LOAD
                       : a.load == LoadOp::Clear ? VK_ATTACHMENT_LOAD_OP_CLEAR
                                                 : VK_ATTACHMENT_LOAD_OP_DONT_CARE;
-        info.storeOp = a.store == StoreOp::Store ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_DONT_CARE;
+        // Storing what was only read would count as a write of it.
+        info.storeOp = a.readOnly                  ? VK_ATTACHMENT_STORE_OP_NONE
+                       : a.store == StoreOp::Store ? VK_ATTACHMENT_STORE_OP_STORE
+                                                   : VK_ATTACHMENT_STORE_OP_DONT_CARE;
         info.clearValue = a.clear;
         if (a.resolve != nullptr) {
             const auto numeric = formatInfo(a.view->texture->descriptor.format).numeric;

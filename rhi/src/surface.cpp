@@ -28,7 +28,7 @@ void SurfaceObject::release() {
     // Presentation has no fence of its own, so the device is drained; this happens on resize and at the end.
     {
         const HostLock hostLock(device->queue);
-        f.vkDeviceWaitIdle(device->handle);
+        device->drain();
     }
     std::erase_if(device->queue.acquired, [&](const VkSemaphoreSubmitInfo& info) {
         return std::any_of(images.begin(), images.end(), [&](const Image& i) { return i.acquired == info.semaphore; });

@@ -136,7 +136,7 @@ bool BarrierBatch::step(AccessState& state, const Access& access, VkImageMemoryB
         const bool ordered =
             !relayout && log_ != nullptr &&
             (state.writeStages == 0 || log_->orders(state.wroteAt, state.writeStages, state.writeAccess, access)) &&
-            (state.readStages == 0 || log_->orders(state.readAt, state.readStages, 0, access));
+            (state.readStages == 0 || log_->orders(state.readAt, state.readStages, 0, {.stages = access.stages}));
         const bool needed = relayout || (transition.srcStageMask != 0 && !ordered);
         state = {.layout = access.layout, .writeStages = access.stages, .wroteAt = now, .readAt = now};
         if (access.write) {
@@ -163,13 +163,17 @@ bool BarrierBatch::step(AccessState& state, const Access& access, VkImageMemoryB
 
 void BarrierLog::note(const VkMemoryBarrier2& barrier) {
     const auto all = [](VkPipelineStageFlags2 stages) {
-        return (stages & VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT) != 0 ? ~VkPipelineStageFlags2{0} : stages;
+        return (stages & VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT) != 0
+                   ? ~VkPipelineStageFlags2{VK_PIPELINE_STAGE_2_HOST_BIT}
+                   : stages;
     };
-    const auto every = [](VkAccessFlags2 access) {
-        return (access & VK_ACCESS_2_MEMORY_WRITE_BIT) != 0 ? ~VkAccessFlags2{0} : access;
+    const auto every = [](VkAccessFlags2 access, VkAccessFlags2 words) {
+        return (access & words) == words ? ~VkAccessFlags2{0} : access;
     };
-    entries_[next_] = {boundary_, all(barrier.srcStageMask), all(barrier.dstStageMask), every(barrier.srcAccessMask),
-                       every(barrier.dstAccessMask)};
+    constexpr VkAccessFlags2 anyWrite = VK_ACCESS_2_MEMORY_WRITE_BIT,
+                             anything = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+    entries_[next_] = {boundary_, all(barrier.srcStageMask), all(barrier.dstStageMask),
+                       every(barrier.srcAccessMask, anyWrite), every(barrier.dstAccessMask, anything)};
     next_ = (next_ + 1) % entries_.size();
 }
 
@@ -177,7 +181,7 @@ bool BarrierLog::orders(std::uint64_t since, VkPipelineStageFlags2 stages, VkAcc
                         const Access& access) const {
     return std::any_of(entries_.begin(), entries_.end(), [&](const Entry& e) {
         return e.boundary > since && (stages & ~e.from) == 0 && (access.stages & ~e.to) == 0 &&
-               (written & ~e.made) == 0 && (written == 0 || (access.access & ~e.seen) == 0);
+               (written & ~e.made) == 0 && (access.access & ~e.seen) == 0;
     });
 }
 

@@ -69,7 +69,8 @@ public:
     void nextBoundary() { ++boundary_; }
     /// A memory barrier stands at this boundary.
     void note(const VkMemoryBarrier2& barrier);
-    /// Does a barrier since order this write (or these readers, when `written` is 0) before the access?
+    /// Does a barrier since order these stages before the access, and show it what they wrote? For readers alone
+    /// `written` and the access' own bits are 0; a layout transition has written nothing but must be seen all the same.
     bool orders(std::uint64_t since, VkPipelineStageFlags2 stages, VkAccessFlags2 written, const Access& access) const;
 
 private:

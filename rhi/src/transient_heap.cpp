@@ -56,7 +56,7 @@ Result<void> checkPlace(const TextureObject& texture, const VkMemoryRequirements
     if (!d.heap) return {};
     const auto& heap = *d.heap.get();
     if (auto ok = needSameDevice(heap, *texture.device); !ok) return ok;
-    if (d.heapOffset % needs.alignment != 0)
+    if ((heap.allocation.offset + d.heapOffset) % needs.alignment != 0)
         return invalid(ErrorCode::OutOfRange, cat(texture.describe(), " is placed at byte ", d.heapOffset, " of ",
                                                   heap.describe(), "; a multiple of ", needs.alignment, " is needed."));
     if (d.heapOffset > heap.size || needs.size > heap.size - d.heapOffset)
@@ -88,7 +88,8 @@ Result<TransientHeap> makeHeap(const std::shared_ptr<DeviceObject>& device, cons
         return invalid(ErrorCode::InvalidSize, cat(object->describe(), " has size 0; a heap holds at least 1 byte."));
     // All colour formats allow the same memory types, and every depth format its own (Vulkan 1.3, "Resource Memory
     // Association"); the types are checked again when a texture is placed.
-    VkMemoryRequirements needs = {descriptor.size, 65536, ~0U};
+    // No device asks more than a megabyte of alignment of an image, so offsets in the heap may be judged by themselves.
+    VkMemoryRequirements needs = {descriptor.size, 1U << 20, ~0U};
     for (const auto format : {VK_FORMAT_R8G8B8A8_UNORM, VK_FORMAT_D32_SFLOAT}) {
         VkImageCreateInfo info = {VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO};
         info.imageType = VK_IMAGE_TYPE_2D;

@@ -20,7 +20,7 @@ namespace host {
 /// What a guest wants enabled beside what the engine wants itself.
 struct DeviceWishes {
     std::vector<const char*> extensions = {};
-    const void* features = nullptr;  // pNext of VkDeviceCreateInfo
+    void* features = nullptr;  // a pNext chain for VkDeviceCreateInfo; the engine sets its own bits in it
 };
 
 struct Context {

@@ -106,13 +106,18 @@ void Engine::createDevice() {
     while (context_.queueFamily < count && (families[context_.queueFamily].queueFlags & both) != both)
         ++context_.queueFamily;
 
-    // The engine's own needs, unless a guest that needs the same and more fills them in.
     VkPhysicalDeviceVulkan13Features own = {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
     own.dynamicRendering = own.synchronization2 = VK_TRUE;
     VkPhysicalDeviceFeatures2 features = {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, &own};
     DeviceWishes wishes;
     if (guest_.wishes) wishes = guest_.wishes(context_.instance, context_.physicalDevice);
     context_.features = wishes.features != nullptr ? wishes.features : &features;
+    // Vulkan allows each structure once in a chain: where the guest brought one, the engine's bits are set in that.
+    for (auto* next = static_cast<VkBaseOutStructure*>(wishes.features); next != nullptr; next = next->pNext)
+        if (next->sType == VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES) {
+            auto& theirs = *reinterpret_cast<VkPhysicalDeviceVulkan13Features*>(next);
+            theirs.dynamicRendering = theirs.synchronization2 = VK_TRUE;
+        }
     context_.deviceExtensions = wishes.extensions;
     const float priority = 1;
     VkDeviceQueueCreateInfo queue = {VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO};

@@ -31,7 +31,7 @@ public:
     explicit Hair(const std::string& data) : library_(data) {}
 
     DeviceWishes wishes(VkInstance instance, VkPhysicalDevice device) {
-        needs_ = need(vulkan::needs(vkGetInstanceProcAddr, instance, device, rhi::Feature::WideLines));
+        needs_ = need(vulkan::needs(vkGetInstanceProcAddr, instance, device, {}, rhi::Feature::WideLines));
         return {needs_.deviceExtensions, needs_.chain()};
     }
     void start(const Context& c) {
@@ -40,7 +40,7 @@ public:
         host.queue = c.queue, host.queueFamily = c.queueFamily;
         host.enabledInstanceExtensions = c.instanceExtensions, host.enabledDeviceExtensions = c.deviceExtensions;
         host.enabledFeatures = static_cast<const VkPhysicalDeviceFeatures2*>(c.features);
-        host.features = rhi::Feature::WideLines;
+        host.optionalFeatures = rhi::Feature::WideLines;
         host.queueLock = {[&c] { c.queueMutex->lock(); }, [&c] { c.queueMutex->unlock(); }};
         device_ = need(vulkan::adopt(host));
         rhi::TextureDescriptor image = {.label = "color", .size = {c.extent.width, c.extent.height, 1}};

@@ -77,6 +77,51 @@ TEST(Tracking, ALayoutChangeIsAnImageBarrierAndSameLayoutReadsAreNone) {
     EXPECT_EQ(batch.memory().dstStageMask, fragment | compute);
 }
 
+TEST(Tracking, ABarrierForOthersShowsATransitionOnlyToWhatItNames) {
+    BarrierLog log;
+    BarrierBatch batch(&log);
+    TextureState painted;
+    AccessState read, written;
+    auto* const image = reinterpret_cast<VkImage>(std::uintptr_t{16});
+    const auto boundary = [&] {
+        const bool any = !batch.empty();
+        if (batch.hasMemory()) log.note(batch.memory());
+        batch.clear();
+        return any;
+    };
+    batch.use(painted, image, {}, accessOf(UseKind::ColorAttachment, 0, false));
+    boundary();
+    batch.use(painted, image, {}, accessOf(UseKind::Sampled, fragment, false));
+    batch.use(read, accessOf(UseKind::StorageBufferRead, fragment, false));
+    boundary();
+    // Waits for the fragment shader and shows storage to compute, but not what was sampled.
+    batch.use(read, accessOf(UseKind::StorageBufferWrite, compute, false));
+    EXPECT_TRUE(boundary());
+    batch.use(painted, image, {}, accessOf(UseKind::Sampled, compute, false));
+    EXPECT_TRUE(boundary()) << "the painted texels never reached compute's caches";
+}
+
+TEST(Tracking, ABarrierMadeForAnotherResourceServesAsWell) {
+    BarrierLog log;
+    BarrierBatch batch(&log);
+    AccessState a, b;
+    const auto use = [&](AccessState& state, UseKind kind, VkPipelineStageFlags2 stages) {
+        batch.use(state, accessOf(kind, stages, false));
+        const bool any = !batch.empty();
+        if (batch.hasMemory()) log.note(batch.memory());
+        batch.clear();
+        return any;
+    };
+    use(a, UseKind::StorageBufferWrite, compute);
+    use(b, UseKind::StorageBufferWrite, compute);
+    EXPECT_TRUE(use(a, UseKind::StorageBufferRead, fragment));
+    EXPECT_FALSE(use(b, UseKind::StorageBufferRead, fragment)) << "the barrier just made is about all memory";
+    EXPECT_TRUE(use(b, UseKind::StorageBufferRead, vertex)) << "which it did not name";
+    EXPECT_FALSE(use(b, UseKind::StorageBufferRead, fragment));
+    use(a, UseKind::StorageBufferWrite, compute);
+    EXPECT_TRUE(use(a, UseKind::StorageBufferRead, fragment)) << "a write after the barrier needs a new one";
+}
+
 TEST(Tracking, SubresourcesDivergeAndComeTogetherAgain) {
     TextureState t;
     t.mips = 2;

@@ -194,7 +194,7 @@ void HazardOracle::transition(Resource& resource, Cell& cell, const VkImageMemor
             hazard("transition after read: " + where + " on " + resource.name + " after " + r.by);
     Write made;
     made.any = made.available = true;
-    made.stages = 0;
+    made.stages = 1ULL << 39;  // no barrier names it: only what waits for the transition counts
     made.chain = scope.to;
     made.by = "the transition in " + where;
     eachStage(scope.to, [&](std::size_t stage) { made.visible[stage] = scope.seen; });
@@ -213,7 +213,7 @@ void HazardOracle::takeOver(std::uint64_t id, Resource& taker, const Scope& scop
         if (resource.offset >= taker.offset + taker.bytes || taker.offset >= resource.offset + resource.bytes) continue;
         for (Cell& cell : resource.cells) {
             const auto waited = [&](VkPipelineStageFlags2 stages, VkPipelineStageFlags2 chain) {
-                return (stages & ~scope.from) == 0 || (chain & scope.from) != 0 || (chain & scope.to) != 0;
+                return (stages & ~scope.from) == 0 || (chain & scope.from) != 0;
             };
             if (cell.write.any && cell.write.access != 0 &&
                 (!cell.write.available || !waited(cell.write.stages, cell.write.chain)))

@@ -2,6 +2,7 @@
 // What command buffers are told, as accesses and barriers for the oracle.
 #include "null_functions.hpp"
 
+#include <atomic>
 #include <cstring>
 
 namespace pelage::test {
@@ -197,7 +198,7 @@ void F::vkCmdPipelineBarrier2(VkCommandBuffer commands, const VkDependencyInfo* 
 void F::vkCmdBeginRendering(VkCommandBuffer commands, const VkRenderingInfo* info) {
     auto& c = of(commands);
     if (!c.driver->keepCommands) return;
-    static std::uint64_t scopes = 0;
+    static std::atomic<std::uint64_t> scopes{0};
     c.scope = ++scopes;
     std::vector<Touch> touches;
     const auto attach = [&](std::uint64_t view, VkImageLayout layout, bool load, bool depth, bool readOnly) {

@@ -204,6 +204,9 @@ void F::vkGetDeviceQueue(VkDevice device, std::uint32_t, std::uint32_t, VkQueue*
 VkResult F::vkDeviceWaitIdle(VkDevice) {
     return VK_SUCCESS;
 }
+VkResult F::vkQueueWaitIdle(VkQueue) {
+    return VK_SUCCESS;
+}
 VkResult F::vkSetDebugUtilsObjectNameEXT(VkDevice device, const VkDebugUtilsObjectNameInfoEXT* info) {
     PELAGE_NULL_LOCK(device);
     const bool resource = info->objectType == VK_OBJECT_TYPE_BUFFER || info->objectType == VK_OBJECT_TYPE_IMAGE;

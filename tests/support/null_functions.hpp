@@ -4,68 +4,51 @@
 
 #include "null_driver.hpp"
 
-#define PELAGE_NULL_FUNCTIONS(F)                                                                                      \
-    F(vkEnumerateInstanceVersion)                                                                                     \
-    F(vkEnumerateInstanceLayerProperties)                                                                             \
-    F(vkEnumerateInstanceExtensionProperties)                                                                         \
-    F(vkCreateInstance)                                                                                               \
-    F(vkDestroyInstance)                                                                                              \
-    F(vkEnumeratePhysicalDevices)                                                                                     \
-    F(vkGetPhysicalDeviceProperties2)                                                                                 \
-    F(vkGetPhysicalDeviceFeatures2)                                                                                   \
-    F(vkGetPhysicalDeviceMemoryProperties)                                                                            \
-    F(vkGetPhysicalDeviceQueueFamilyProperties)                                                                       \
-    F(vkGetPhysicalDeviceFormatProperties2)                                                                           \
-    F(vkGetPhysicalDeviceImageFormatProperties2)                                                                      \
-    F(vkEnumerateDeviceExtensionProperties)                                                                           \
-    F(vkCreateDevice)                                                                                                 \
-    F(vkGetDeviceProcAddr)                                                                                            \
-    F(vkDestroyDevice)                                                                                                \
-    F(vkGetDeviceQueue)                                                                                               \
-    F(vkDeviceWaitIdle)                                                                                               \
-    F(vkQueueSubmit2)                                                                                                 \
-    F(vkAllocateMemory)                                                                                               \
-    F(vkFreeMemory)                                                                                                   \
-    F(vkMapMemory)                                                                                                    \
-    F(vkCreateBuffer)                                                                                                 \
-    F(vkDestroyBuffer)                                                                                                \
-    F(vkGetBufferMemoryRequirements2)                                                                                 \
-    F(vkBindBufferMemory2)                                                                                            \
-    F(vkCreateImage)                                                                                                  \
-    F(vkDestroyImage)                                                                                                 \
-    F(vkGetDeviceImageMemoryRequirements)                                                                             \
-    F(vkBindImageMemory2)                                                                                             \
-    F(vkCreateImageView)                                                                                              \
-    F(vkDestroyImageView)                                                                                             \
-    F(vkCreateSampler)                                                                                                \
-    F(vkDestroySampler)                                                                                               \
-    F(vkCreateShaderModule)                                                                                           \
-    F(vkDestroyShaderModule)                                                                                          \
-    F(vkCreateDescriptorSetLayout)                                                                                    \
-    F(vkDestroyDescriptorSetLayout)                                                                                   \
-    F(vkCreateDescriptorPool)                                                                                         \
-    F(vkDestroyDescriptorPool)                                                                                        \
-    F(vkAllocateDescriptorSets)                                                                                       \
-    F(vkFreeDescriptorSets)                                                                                           \
-    F(vkUpdateDescriptorSets)                                                                                         \
-    F(vkCreatePipelineLayout)                                                                                         \
-    F(vkDestroyPipelineLayout)                                                                                        \
-    F(vkCreatePipelineCache)                                                                                          \
-    F(vkDestroyPipelineCache)                                                                                         \
-    F(vkGetPipelineCacheData)                                                                                         \
-    F(vkCreateGraphicsPipelines) F(vkCreateComputePipelines) F(vkDestroyPipeline) F(vkCreateQueryPool)                \
-        F(vkDestroyQueryPool) F(vkCreateSemaphore) F(vkDestroySemaphore) F(vkGetSemaphoreCounterValue)                \
-            F(vkWaitSemaphores) F(vkCreateCommandPool) F(vkDestroyCommandPool) F(vkResetCommandPool)                  \
-                F(vkAllocateCommandBuffers) F(vkBeginCommandBuffer) F(vkEndCommandBuffer) F(vkCmdPipelineBarrier2)    \
-                    F(vkCmdBeginRendering) F(vkCmdEndRendering) F(vkCmdBindPipeline) F(vkCmdBindDescriptorSets)       \
-                        F(vkCmdPushConstants) F(vkCmdBindVertexBuffers) F(vkCmdBindIndexBuffer) F(vkCmdSetViewport)   \
-                            F(vkCmdSetScissor) F(vkCmdSetLineWidth) F(vkCmdDraw) F(vkCmdDrawIndexed) F(vkCmdDispatch) \
-                                F(vkCmdDrawIndirect) F(vkCmdDrawIndexedIndirect) F(vkCmdDispatchIndirect)             \
-                                    F(vkCmdCopyBuffer) F(vkCmdCopyBufferToImage) F(vkCmdCopyImageToBuffer)            \
-                                        F(vkCmdCopyImage) F(vkCmdFillBuffer) F(vkCmdResetQueryPool)                   \
-                                            F(vkCmdWriteTimestamp2) F(vkCmdBeginQuery) F(vkCmdEndQuery)               \
-                                                F(vkCmdCopyQueryPoolResults) F(vkSetDebugUtilsObjectNameEXT)          \
-                                                    F(vkCmdBeginDebugUtilsLabelEXT) F(vkCmdEndDebugUtilsLabelEXT)
+#define PELAGE_NULL_FUNCTIONS(F)                                                                                       \
+    F(vkEnumerateInstanceVersion)                                                                                      \
+    F(vkEnumerateInstanceLayerProperties)                                                                              \
+    F(vkEnumerateInstanceExtensionProperties)                                                                          \
+    F(vkCreateInstance)                                                                                                \
+    F(vkDestroyInstance)                                                                                               \
+    F(vkEnumeratePhysicalDevices)                                                                                      \
+    F(vkGetPhysicalDeviceProperties2)                                                                                  \
+    F(vkGetPhysicalDeviceFeatures2)                                                                                    \
+    F(vkGetPhysicalDeviceMemoryProperties)                                                                             \
+    F(vkGetPhysicalDeviceQueueFamilyProperties)                                                                        \
+    F(vkGetPhysicalDeviceFormatProperties2)                                                                            \
+    F(vkGetPhysicalDeviceImageFormatProperties2)                                                                       \
+    F(vkEnumerateDeviceExtensionProperties)                                                                            \
+    F(vkCreateDevice)                                                                                                  \
+    F(vkGetDeviceProcAddr)                                                                                             \
+    F(vkDestroyDevice)                                                                                                 \
+    F(vkGetDeviceQueue)                                                                                                \
+    F(vkDeviceWaitIdle)                                                                                                \
+    F(vkQueueWaitIdle) F(vkQueueSubmit2) F(vkAllocateMemory) F(vkFreeMemory) F(vkMapMemory) F(vkCreateBuffer) F(       \
+        vkDestroyBuffer) F(vkGetBufferMemoryRequirements2) F(vkBindBufferMemory2) F(vkCreateImage) F(vkDestroyImage)   \
+        F(vkGetDeviceImageMemoryRequirements) F(vkBindImageMemory2) F(vkCreateImageView) F(vkDestroyImageView) F(      \
+            vkCreateSampler) F(vkDestroySampler) F(vkCreateShaderModule) F(vkDestroyShaderModule)                      \
+            F(vkCreateDescriptorSetLayout) F(vkDestroyDescriptorSetLayout) F(vkCreateDescriptorPool) F(                \
+                vkDestroyDescriptorPool) F(vkAllocateDescriptorSets) F(vkFreeDescriptorSets) F(vkUpdateDescriptorSets) \
+                F(vkCreatePipelineLayout) F(vkDestroyPipelineLayout) F(vkCreatePipelineCache)                          \
+                    F(vkDestroyPipelineCache) F(vkGetPipelineCacheData) F(vkCreateGraphicsPipelines)                   \
+                        F(vkCreateComputePipelines) F(vkDestroyPipeline) F(vkCreateQueryPool) F(vkDestroyQueryPool) F( \
+                            vkCreateSemaphore) F(vkDestroySemaphore) F(vkGetSemaphoreCounterValue) F(vkWaitSemaphores) \
+                            F(vkCreateCommandPool) F(vkDestroyCommandPool) F(vkResetCommandPool)                       \
+                                F(vkAllocateCommandBuffers) F(vkBeginCommandBuffer) F(vkEndCommandBuffer)              \
+                                    F(vkCmdPipelineBarrier2) F(vkCmdBeginRendering) F(vkCmdEndRendering)               \
+                                        F(vkCmdBindPipeline) F(vkCmdBindDescriptorSets) F(vkCmdPushConstants)          \
+                                            F(vkCmdBindVertexBuffers) F(vkCmdBindIndexBuffer) F(vkCmdSetViewport) F(   \
+                                                vkCmdSetScissor) F(vkCmdSetLineWidth) F(vkCmdDraw) F(vkCmdDrawIndexed) \
+                                                F(vkCmdDispatch) F(vkCmdDrawIndirect) F(vkCmdDrawIndexedIndirect)      \
+                                                    F(vkCmdDispatchIndirect) F(vkCmdCopyBuffer)                        \
+                                                        F(vkCmdCopyBufferToImage) F(vkCmdCopyImageToBuffer)            \
+                                                            F(vkCmdCopyImage) F(vkCmdFillBuffer)                       \
+                                                                F(vkCmdResetQueryPool) F(vkCmdWriteTimestamp2)         \
+                                                                    F(vkCmdBeginQuery) F(vkCmdEndQuery)                \
+                                                                        F(vkCmdCopyQueryPoolResults)                   \
+                                                                            F(vkSetDebugUtilsObjectNameEXT)            \
+                                                                                F(vkCmdBeginDebugUtilsLabelEXT)        \
+                                                                                    F(vkCmdEndDebugUtilsLabelEXT)
 
 namespace pelage::test {
 
@@ -105,6 +88,7 @@ struct NullDriver::Functions {
     static VKAPI_ATTR void VKAPI_CALL vkDestroyDevice(VkDevice, const VkAllocationCallbacks*);
     static VKAPI_ATTR void VKAPI_CALL vkGetDeviceQueue(VkDevice, std::uint32_t, std::uint32_t, VkQueue*);
     static VKAPI_ATTR VkResult VKAPI_CALL vkDeviceWaitIdle(VkDevice);
+    static VKAPI_ATTR VkResult VKAPI_CALL vkQueueWaitIdle(VkQueue);
     static VKAPI_ATTR VkResult VKAPI_CALL vkQueueSubmit2(VkQueue, std::uint32_t, const VkSubmitInfo2*, VkFence);
     static VKAPI_ATTR VkResult VKAPI_CALL vkAllocateMemory(VkDevice, const VkMemoryAllocateInfo*,
                                                            const VkAllocationCallbacks*, VkDeviceMemory*);

@@ -63,7 +63,8 @@ struct DeviceDescriptor {
     Feature optionalFeatures = Feature::WideLines | Feature::PipelineStatistics | Feature::Timestamps;
     BlobCache pipelines = {};
     std::vector<Toggle> toggles = {};  // those that are not to be as the driver asks for
-    /// Errors that no error scope caught. Default: written to the instance's onMessage as an Error.
+    /// Errors that no error scope caught. Default: written to the instance's onMessage as an Error. May be called
+    /// inside a lock of the device: do not call it from there.
     std::function<void(const Error&)> onUncapturedError = {};
     /// Called once, with the first error that says so, maybe inside a lock of the device: do not call it from there.
     /// Submissions and writes afterwards fail with DeviceLost and do nothing.

@@ -55,20 +55,23 @@ struct FeatureChain {
     VkPhysicalDeviceFeatures2* link(bool lineRasterization);
 };
 
-/// What a host must enable. Set more bits as you like; a host that fills its own structures copies these bits.
+/// What a host must enable: what Pelage cannot do without, what it uses where a device has it, and the wanted
+/// features. Set more bits as you like; a host that fills its own structures copies these bits.
 struct Needs {
     std::uint32_t apiVersion = VK_API_VERSION_1_3;
     std::vector<const char*> deviceExtensions = {};
     FeatureChain features = {};
     /// For VkDeviceCreateInfo::pNext.
-    const void* chain() { return features.link(!deviceExtensions.empty()); }
+    void* chain() { return features.link(!deviceExtensions.empty()); }
 };
-/// Unsupported when the physical device cannot run Pelage or lacks a wanted feature.
+/// Unsupported when the physical device cannot run Pelage or lacks a wanted feature. Of the optional ones, those that
+/// it has.
 Result<Needs> needs(PFN_vkGetInstanceProcAddr getInstanceProcAddr, VkInstance instance, VkPhysicalDevice physicalDevice,
-                    Feature wanted = Feature::None);
+                    Feature wanted = Feature::None, Feature optional = Feature::None);
 
 /// Held around every call on the shared queue (submission, presentation, waiting for idle). A host that submits from
-/// another thread locks the same mutex; lavapipe has one queue, so this is the usual case there.
+/// another thread locks the same mutex; lavapipe has one queue, so this is the usual case there. Taken inside locks of
+/// the device: never call into the device, nor drop its last handle, while holding it.
 struct QueueLock {
     std::function<void()> lock = {}, unlock = {};
 };
@@ -85,7 +88,8 @@ struct AdoptDescriptor {
     std::vector<const char*> enabledInstanceExtensions = {}, enabledDeviceExtensions = {};
     /// The pNext chain the device was created with. Never guessed: what is not in it counts as off.
     const VkPhysicalDeviceFeatures2* enabledFeatures = nullptr;
-    Feature features = Feature::None;  // wanted; as given to needs()
+    Feature features = Feature::None;          // wanted; as given to needs()
+    Feature optionalFeatures = Feature::None;  // granted where the device has them and the host enabled them
     QueueLock queueLock = {};
     bool singleThreaded = false;  // true: nobody else touches the queue while we do, so no lock is needed
     const VkAllocationCallbacks* allocator = nullptr;  // host memory of the driver; outlives the device
@@ -103,8 +107,9 @@ struct AdoptDescriptor {
 Result<Device> adopt(const AdoptDescriptor& descriptor);
 
 /// Handles to a host's image or buffer, which must have been created with the usages, size and format that the
-/// descriptor states, and must outlive the last submission that uses them. `onRelease` is called when that has finished
-/// and the last handle is gone.
+/// descriptor states, and must outlive the last submission that uses them. Every encodeInto() whose
+/// commands use one lists it; without that its state is taken to be what we last left it in. `onRelease` is called when
+/// that has finished and the last handle is gone.
 Result<Texture> wrapImage(const Device& device, VkImage image, const TextureDescriptor& descriptor,
                           std::function<void()> onRelease = {});
 Result<Buffer> wrapBuffer(const Device& device, VkBuffer buffer, const BufferDescriptor& descriptor,
