@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 #include "plan_charts.hpp"
+#include "check.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -91,7 +92,7 @@ private:
         const PlanPass& pass = plan_.passes[index];
         const double x = column(index);
         const auto views = plan_.viewCounts.find(pass.view);
-        std::string kind(kindText(pass.kind));
+        std::string kind(word(pass.kind));
         if (pass.forEachLayer && views != plan_.viewCounts.end()) kind += ", " + std::to_string(views->second) + "x";
         return line(x, 0, x, height, "rule") +
                box(x + 3, 2, columnWidth - 6, headHeight - 10, kind.substr(0, 4).c_str()) +
@@ -149,7 +150,7 @@ private:
 
     static std::string use(const PlanSlot& slot, double x, double y, double offset) {
         const bool reads = slot.access == SlotAccess::Read;
-        const std::string how = std::string(useText(slot.use)) + " " + versionText(slot);
+        const std::string how = std::string(word(slot.use)) + " " + versionText(slot);
         const std::string verb = reads ? "reads " : slot.access == SlotAccess::Write ? "writes " : "changes ";
         const std::string loads = loadStoreText(slot);
         return box(x + 7 + offset, y + 7 + offset, columnWidth - 14, rowHeight - 14, reads ? "reads" : "writes",

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The compiled graph as text for Graphviz: boxes are passes in their order, ovals are images.
+#include "check.hpp"
 #include "plan_text.hpp"
 
 namespace pelage::passes {
@@ -36,8 +37,7 @@ std::string Plan::dot() const {
                                  : !pass.drawList.empty() ? "list " + pass.drawList
                                                           : pass.shader;
         out += "    " + quoted("pass " + pass.name) + " [shape=box, label=" +
-               lines({std::to_string(i + 1) + ". " + pass.name, std::string(kindText(pass.kind)), work, times}) +
-               "];\n";
+               lines({std::to_string(i + 1) + ". " + pass.name, std::string(word(pass.kind)), work, times}) + "];\n";
     }
     for (std::size_t i = 0; i < resources.size(); ++i) {
         const PlanResource& resource = resources[i];
@@ -61,7 +61,7 @@ std::string Plan::dot() const {
             };
             if (slot.access != SlotAccess::Write && slot.load == rhi::LoadOp::Load) {
                 out += "    " + imageNode + " -> " + passNode +
-                       " [label=" + lines({slot.name, version(slot.reads), std::string(useText(slot.use))}) + "];\n";
+                       " [label=" + lines({slot.name, version(slot.reads), std::string(word(slot.use))}) + "];\n";
             }
             if (slot.access != SlotAccess::Read) {
                 out += "    " + passNode + " -> " + imageNode +

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: MIT
+#include "check.hpp"
 #include "plan_charts.hpp"
 
 namespace pelage::passes {
@@ -70,7 +71,7 @@ std::string slotText(const Plan& plan, const PlanSlot& slot) {
     out += escaped(plan.resources[slot.resource].name) + " " + versionText(slot);
     if (slot.producer < plan.passes.size()) out += " of " + escaped(plan.passes[slot.producer].name);
     const std::string loads = loadStoreText(slot);
-    return out + " <span class=\"dim\">" + std::string(useText(slot.use)) + (loads.empty() ? "" : "; " + loads) +
+    return out + " <span class=\"dim\">" + std::string(word(slot.use)) + (loads.empty() ? "" : "; " + loads) +
            "</span>";
 }
 
@@ -78,8 +79,8 @@ std::string waitText(const Plan& plan, const PlanPass& pass, const PlanWait& wai
     const PlanSlot& slot = pass.slots[wait.slot];
     std::string out = escaped(plan.resources[slot.resource].name) + " after " + escaped(plan.passes[wait.after].name);
     if (wait.from != slot.use) {
-        out += " <span class=\"dim\">(" + std::string(useText(wait.from)) + " to " + std::string(useText(slot.use)) +
-               ")</span>";
+        out +=
+            " <span class=\"dim\">(" + std::string(word(wait.from)) + " to " + std::string(word(slot.use)) + ")</span>";
     }
     return out;
 }

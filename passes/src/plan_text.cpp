@@ -26,17 +26,6 @@ std::string byteText(std::uint64_t bytes) {
     return text;
 }
 
-std::string_view useText(SlotUse use) {
-    static constexpr std::string_view words[] = {"color",   "depth", "sampled", "storage",
-                                                 "uniform", "copy",  "vertex",  "indirect"};
-    return words[static_cast<std::size_t>(use)];
-}
-
-std::string_view kindText(PassKind kind) {
-    static constexpr std::string_view words[] = {"raster", "fullscreen", "compute", "copy"};
-    return words[static_cast<std::size_t>(kind)];
-}
-
 std::string versionText(const PlanSlot& slot) {
     const auto version = [](std::uint32_t number) { return "v" + std::to_string(number); };
     if (slot.access == SlotAccess::Read) return slot.reads == ~0U ? "as lent" : version(slot.reads);

@@ -13,8 +13,6 @@ namespace pelage::passes {
 std::string shapeText(const PlanResource& resource);
 /// "6.25 MiB", "64 KiB", "16 B".
 std::string byteText(std::uint64_t bytes);
-std::string_view useText(SlotUse use);
-std::string_view kindText(PassKind kind);
 /// "v1"; "v1-v2" of what is changed; "as lent".
 std::string versionText(const PlanSlot& slot);
 /// "load", "clear" or "-", then "store" or "discard"; empty for a slot that only reads.

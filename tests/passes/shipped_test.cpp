@@ -157,7 +157,7 @@ TEST(ShippedFrame, PlanDoesNotDependOnTheOrderInTheFile) {
 }
 
 TEST(ShippedFrame, NothingLiesCloserThanItsLivesAllow) {
-    // Depth and ColorMS are alive at once and are four fifths of the whole: the heap is the peak, not less.
+    // Depth and ColorMS are alive at once and are most of the whole: the heap is the peak, not less.
     const Outcome made = run(shipped());
     EXPECT_EQ(made.plan.heapBytes, made.plan.peakBytes);
     EXPECT_LT(made.plan.heapBytes, made.plan.naiveBytes);
