@@ -39,7 +39,7 @@ function(pelage_install_pkgconfig name)
   install(FILES ${generated}/pelage-${name}.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig)
 endfunction()
 
-pelage_install_library(json HEADERS json)
+pelage_install_library(base HEADERS base)
 pelage_install_library(rhi HEADERS rhi)
 pelage_install_library(passes HEADERS passes)
 pelage_install_library(materials HEADERS materials)
@@ -49,30 +49,37 @@ pelage_install_library(hair HEADERS hair)
 
 find_package(tl-expected REQUIRED)
 get_target_property(expected_include tl::expected INTERFACE_INCLUDE_DIRECTORIES)
-pelage_install_pkgconfig(json DESCRIPTION "JSON with positions, schemas and one-line diagnostics" LIBS json
+pelage_install_pkgconfig(base DESCRIPTION "JSON with positions, schemas and one-line diagnostics" LIBS base
   INCLUDES ${expected_include})
 pelage_install_pkgconfig(rhi DESCRIPTION "Devices in WebGPU's shape over Vulkan 1.3" LIBS rhi
   INCLUDES ${Vulkan_INCLUDE_DIR} ${expected_include} 
   LIBS_PRIVATE -lspirv-cross-core -ldl -pthread -Wl,--exclude-libs,libspirv-cross-core.a)
-pelage_install_pkgconfig(passes DESCRIPTION "Pass trees: a frame as data" LIBS passes REQUIRES pelage-rhi pelage-json)
+pelage_install_pkgconfig(passes DESCRIPTION "Pass trees: a frame as data" LIBS passes REQUIRES pelage-rhi pelage-base)
 pelage_install_pkgconfig(materials DESCRIPTION "Material types, materials, functors" LIBS materials
-  REQUIRES pelage-rhi pelage-json)
+  REQUIRES pelage-rhi pelage-base)
 pelage_install_pkgconfig(hair DESCRIPTION "Hair: geometry, shading, renderer" LIBS hair hair_geometry hair_scattering
-  REQUIRES pelage-materials pelage-passes pelage-rhi pelage-json glm REQUIRES_PRIVATE tinygltf LIBS_PRIVATE -pthread)
+  REQUIRES pelage-materials pelage-passes pelage-rhi pelage-base glm REQUIRES_PRIVATE tinygltf LIBS_PRIVATE -pthread)
 
 if(TARGET pelage_reference)
   pelage_install_library(reference HEADERS hair/reference)
   pelage_install_pkgconfig(reference DESCRIPTION "Fibre scattering in double precision" LIBS reference)
 endif()
 
-# The layout hair::Library expects is that of the source tree.
-install(DIRECTORY materials/types materials/presets DESTINATION ${data_dir}/materials)
-install(DIRECTORY passes/templates DESTINATION ${data_dir}/passes)
-install(DIRECTORY hair/schemas DESTINATION ${data_dir}/hair)
+# The data directory of hair::Library, with the schemas of all formats in one folder for editors.
+# There "$schema" leads to that folder.
+file(GLOB_RECURSE data_files RELATIVE ${PROJECT_SOURCE_DIR}/hair/data CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/hair/data/*.json)
+foreach(file ${data_files})
+  set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS hair/data/${file})
+  file(READ hair/data/${file} text)
+  string(REGEX REPLACE "\\.\\./\\.\\./\\.\\./(passes|materials)/data/" "../schemas/" text "${text}")
+  file(CONFIGURE OUTPUT ${generated}/data/${file} CONTENT "${text}" @ONLY)
+endforeach()
+install(DIRECTORY ${generated}/data/ DESTINATION ${data_dir})
+install(DIRECTORY passes/data/ materials/data/ DESTINATION ${data_dir}/schemas)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 if(TARGET pelage)
   install(TARGETS pelage RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-  install(DIRECTORY samples/scenes DESTINATION ${data_dir}/samples)
+  install(DIRECTORY samples/scenes DESTINATION ${data_dir})
 endif()
 
 get_property(components GLOBAL PROPERTY PELAGE_COMPONENTS)

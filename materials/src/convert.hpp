@@ -2,7 +2,7 @@
 // From what a file, a person or a program gives to the value of a property: one set of rules and codes (V003..V013).
 #pragma once
 
-#include <pelage/json/value.hpp>
+#include <pelage/base/json.hpp>
 #include <pelage/materials/material.hpp>
 
 namespace pelage::materials {

@@ -5,7 +5,7 @@
 
 #include "versions.hpp"
 
-#include <pelage/json/value.hpp>
+#include <pelage/base/json.hpp>
 #include <pelage/materials/material.hpp>
 
 namespace pelage::materials {

@@ -4,7 +4,7 @@
 
 #include "versions.hpp"
 
-#include <pelage/json/condition.hpp>
+#include <pelage/base/condition.hpp>
 #include <pelage/materials/material.hpp>
 
 namespace pelage::materials {

@@ -2,7 +2,7 @@
 // The reader of material files; also what migrating them starts with.
 #pragma once
 
-#include <pelage/json/value.hpp>
+#include <pelage/base/json.hpp>
 #include <pelage/materials/material.hpp>
 
 namespace pelage::materials {

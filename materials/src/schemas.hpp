@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// The texts of materials/types/*.schema.json, compiled in.
+// The texts of hair/data/types/*.schema.json, compiled in.
 #pragma once
 
 #include <string_view>

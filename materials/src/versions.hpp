@@ -2,7 +2,7 @@
 // What became of properties between versions of a material type.
 #pragma once
 
-#include <pelage/json/value.hpp>
+#include <pelage/base/json.hpp>
 #include <pelage/materials/value.hpp>
 
 #include <string>

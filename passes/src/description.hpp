@@ -4,7 +4,7 @@
 
 #include "expression.hpp"
 
-#include <pelage/json/value.hpp>
+#include <pelage/base/json.hpp>
 #include <pelage/passes/tree.hpp>
 
 namespace pelage::passes {

@@ -2,8 +2,8 @@
 // Conditions of a pass tree: json::Condition over settings and host.has('Import').
 #pragma once
 
-#include <pelage/json/condition.hpp>
-#include <pelage/json/value.hpp>
+#include <pelage/base/condition.hpp>
+#include <pelage/base/json.hpp>
 #include <pelage/passes/tree.hpp>
 
 namespace pelage::passes {

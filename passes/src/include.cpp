@@ -36,7 +36,8 @@ const Checked<json::Schema>& schema() {
 
 class Includer {
 public:
-    Includer(const TextReader& reader, bool disk, Diagnostics& out) : reader_(reader), disk_(disk), out_(out) {}
+    Includer(const TextReader& reader, const IncludePath& elsewhere, bool disk, Diagnostics& out)
+        : reader_(reader), elsewhere_(elsewhere), disk_(disk), out_(out) {}
 
     Source run(json::Document document, bool onDisk) {
         if (onDisk) source_.onDisk.push_back(document.file);
@@ -68,9 +69,9 @@ private:
     void include(const std::string& from, const Value& name) {
         Reporter reporter(source_.files, out_);
         const std::string path = besides(from, name.string);
-        const std::string& shipped = name.string;
+        const std::string other = disk_ && elsewhere_ ? elsewhere_(name.string) : path;
         for (std::size_t i = 0; i < source_.files.size(); ++i) {
-            if (source_.files[i] != path && source_.files[i] != shipped) continue;
+            if (source_.files[i] != path && source_.files[i] != other) continue;
             if (states_[i] == State::Done) return;  // two files may include a third
             reporter.error(name.place, "P059", "'" + name.string + "' includes itself",
                            i + 1 < source_.files.size() ? "by way of '" + source_.files.back() + "'" : "");
@@ -80,26 +81,26 @@ private:
             reporter.error(name.place, "P057", "more than " + std::to_string(mostFiles) + " files in one tree");
             return;
         }
-        Checked<json::Document> document = open(path, shipped);
+        Checked<json::Document> document = open(path, other);
         if (document) return take(std::move(*document), name.place);
         const Diagnostic& fault = document.error().items().front();
         if (fault.code != "F001") return out_.append(document.error());
         reporter.error(name.place, "P057", "cannot read the included file '" + path + "'",
                        disk_ || reader_ ? "paths are relative to the file that includes"
-                                        : "a tree read from memory includes shipped texts only, or needs a reader");
+                                        : "a tree read from memory needs a reader");
     }
 
-    Checked<json::Document> open(const std::string& path, const std::string& shipped) {
+    Checked<json::Document> open(const std::string& path, const std::string& other) {
         if (reader_) {
             if (const std::optional<std::string> text = reader_(path)) return json::parse(*text, path);
         } else if (disk_) {
-            Checked<json::Document> document = json::parseFile(path);
-            const bool absent = !document && document.error().items().front().code == "F001";
-            if (!absent) source_.onDisk.push_back(path);
-            if (!absent || shippedText(shipped).empty()) return document;
+            for (const std::string& each : {path, other}) {
+                Checked<json::Document> document = json::parseFile(each);
+                const bool absent = !document && document.error().items().front().code == "F001";
+                if (!absent) source_.onDisk.push_back(each);
+                if (!absent) return document;
+            }
         }
-        const std::string_view text = shippedText(shipped);
-        if (!text.empty()) return json::parse(text, shipped);
         Diagnostics none;
         none.add({.code = "F001"});
         return tl::unexpected(std::move(none));
@@ -149,6 +150,7 @@ private:
     }
 
     const TextReader& reader_;
+    const IncludePath& elsewhere_;
     bool disk_;
     Diagnostics& out_;
     Source source_ = {};
@@ -157,8 +159,9 @@ private:
 
 }  // namespace
 
-Source readSource(json::Document document, const TextReader& reader, bool disk, Diagnostics& out) {
-    Source source = Includer(reader, disk, out).run(std::move(document), disk);
+Source readSource(json::Document document, const TextReader& reader, const IncludePath& elsewhere, bool disk,
+                  Diagnostics& out) {
+    Source source = Includer(reader, elsewhere, disk, out).run(std::move(document), disk);
     if (out.hasErrors()) return source;
     // A file that is included need not be a whole frame; the whole must be.
     Reporter reporter(source.files, out);

@@ -14,7 +14,8 @@ struct Source {
 };
 /// Holds the document and what it includes against the schema (include.cpp). `disk`: it is a file, and others may lie
 /// beside it. Reports P057..P059.
-Source readSource(json::Document document, const TextReader& reader, bool disk, Diagnostics& out);
+Source readSource(json::Document document, const TextReader& reader, const IncludePath& elsewhere, bool disk,
+                  Diagnostics& out);
 
 /// Reads all of a source that the schema accepts; reports what a schema cannot say.
 std::shared_ptr<PassTree::Description> readDescription(const Source& source, Diagnostics& out);
@@ -27,9 +28,6 @@ void checkDescription(PassTree::Description& description, Reporter& reporter);
 
 /// Numbers for names, so that the linker compares no words (resolve_names.cpp). Only for a tree without fault.
 void resolveNames(PassTree::Description& description);
-
-/// The text of passtree.schema.json.
-std::string_view passTreeSchema();
 
 std::string wordOf(const json::Value& object, std::string_view key, std::string otherwise = {});
 bool flagOf(const json::Value& object, std::string_view key, bool otherwise);

@@ -6,10 +6,11 @@ namespace pelage::passes {
 namespace {
 
 Checked<std::shared_ptr<const PassTree::Description>> describe(Checked<json::Document> document,
-                                                               const TextReader& reader, bool disk) {
+                                                               const TextReader& reader, const IncludePath& elsewhere,
+                                                               bool disk) {
     if (!document) return tl::unexpected(std::move(document.error()));
     Diagnostics out;
-    const Source source = readSource(std::move(*document), reader, disk, out);
+    const Source source = readSource(std::move(*document), reader, elsewhere, disk, out);
     std::shared_ptr<PassTree::Description> description;
     if (!out.hasErrors()) description = readDescription(source, out);
     if (!out.hasErrors()) {
@@ -27,15 +28,15 @@ Checked<std::shared_ptr<const PassTree::Description>> describe(Checked<json::Doc
 
 Checked<std::shared_ptr<const PassTree>> PassTree::parse(std::string_view text, const std::string& file,
                                                          const TextReader& reader) {
-    auto description = describe(json::parse(text, file), reader, false);
+    auto description = describe(json::parse(text, file), reader, {}, false);
     if (!description) return tl::unexpected(std::move(description.error()));
     auto tree = std::make_shared<PassTree>();
     tree->description_ = std::move(*description);
     return tree;
 }
 
-Checked<std::shared_ptr<const PassTree>> PassTree::load(const std::string& path) {
-    auto description = describe(json::parseFile(path), {}, true);
+Checked<std::shared_ptr<const PassTree>> PassTree::load(const std::string& path, const IncludePath& elsewhere) {
+    auto description = describe(json::parseFile(path), {}, elsewhere, true);
     if (!description) return tl::unexpected(std::move(description.error()));
     auto tree = std::make_shared<PassTree>();
     tree->description_ = std::move(*description);

@@ -2,12 +2,12 @@
 // Kajiya-Kay with the colours of a thin film. Sets 0, 1 and 3 are as the library declares them; set 2 is the material's.
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "options.glsl"
-#include "frame.glsl"
+#include "shaders/options.glsl"
+#include "shaders/frame.glsl"
 #define VARYING in
-#include "varyings.glsl"
-#include "shadow.glsl"
-#include "light.glsl"
+#include "shaders/varyings.glsl"
+#include "lighting/shadow.glsl"
+#include "lighting/light.glsl"
 
 layout(constant_id = 30) const bool filmOn = true;
 

@@ -244,7 +244,7 @@ at the extremes ([stability.md](stability.md)).
 - β_M and β_N below 0.01 are taken as 0.01.
 - moment_lut: the residual, the least of the lobes, is good to a few per cent at σ_a 1; see its column.
 - The published forms are as printed. What was wrong in them is told at the head of each model's file in
-  `hair/shaders/scattering`.
+  `hair/scattering/models`.
 )";
 
 }  // namespace

@@ -15,7 +15,9 @@ namespace {
 constexpr std::string_view sceneEnding = ".scene.json";
 
 fs::path sceneDirectory() {
-    return fs::path(dataDirectory()) / "samples" / "scenes";
+    const fs::path beside = fs::path(dataDirectory()) / "scenes";
+    std::error_code ignored;
+    return fs::is_directory(beside, ignored) ? beside : fs::path(PELAGE_SCENE_DIR);
 }
 
 /// share/pelage beside the bin/ this program runs from; empty when there is none.
@@ -24,7 +26,7 @@ fs::path installedData() {
     const fs::path program = fs::read_symlink("/proc/self/exe", error);
     if (error) return {};
     const fs::path data = program.parent_path().parent_path() / "share" / "pelage";
-    return fs::is_directory(data / "materials", error) ? data : fs::path();
+    return fs::is_directory(data / "types", error) ? data : fs::path();
 }
 
 }  // namespace

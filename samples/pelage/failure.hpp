@@ -2,7 +2,7 @@
 // Every command ends in one of three ways: 0, or one line on stderr and 2. This is that line.
 #pragma once
 
-#include <pelage/json/diagnostic.hpp>
+#include <pelage/base/diagnostic.hpp>
 #include <pelage/rhi/error.hpp>
 
 #include <string>

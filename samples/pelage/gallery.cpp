@@ -67,7 +67,7 @@ Outcome<std::vector<std::string>> chosenScenes(const std::vector<std::string>& o
     if (all.empty()) {
         return tl::unexpected(
             Failure("A040: " + dataDirectory() +
-                    "/samples/scenes has no scenes; set PELAGE_DATA to the source directory of Pelage"));
+                    "/scenes has no scenes; set PELAGE_DATA to a data directory of Pelage"));
     }
     if (only.empty()) return all;
     for (const std::string& name : only) {

@@ -4,7 +4,7 @@
 // the output with empty values so that rows of two files stay side by side.
 #pragma once
 
-#include <pelage/json/diagnostic.hpp>
+#include <pelage/base/diagnostic.hpp>
 
 #include <array>
 #include <cstddef>

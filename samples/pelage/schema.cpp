@@ -20,12 +20,12 @@ const std::vector<Kind>& kinds() {
     static const std::vector<Kind> all = {
         {"passtree",
          "Pass trees: `*.pass.json`",
-         {"passes/templates/passtree.schema.json"},
-         "passes/templates/hair_frame.pass.json"},
+         {"passes/data/passtree.schema.json"},
+         "hair/data/frames/hair_frame.pass.json"},
         {"material",
          "Material types and materials: `*.materialtype.json`, `*.material.json`",
-         {"materials/types/materialtype.schema.json", "materials/types/material.schema.json"},
-         "materials/types/kajiya_kay.materialtype.json"}};
+         {"materials/data/materialtype.schema.json", "materials/data/material.schema.json"},
+         "hair/data/types/kajiya_kay.materialtype.json"}};
     return all;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 #pragma once
 
-#include <pelage/json/value.hpp>
+#include <pelage/base/json.hpp>
 
 #include <string>
 #include <vector>

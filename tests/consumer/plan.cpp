@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A host of pelage::rhi and pelage::passes that knows nothing of hair: compiles the shipped frame into a plan, opens a
+// A host of pelage::rhi and pelage::passes that knows nothing of hair: compiles a frame of its own into a plan, opens a
 // device and has it read a shader that is none.
 #include <pelage/passes/tree.hpp>
 #include <pelage/rhi/rhi.hpp>
@@ -11,6 +11,14 @@ using namespace pelage;
 
 namespace {
 
+constexpr const char* frame = R"({
+  "format": "pelage.passtree/1", "name": "Consumer",
+  "attachments": { "Picture": { "format": "RGBA8Unorm", "size": { "frame": 1 } } },
+  "passes": [ { "name": "Fill", "kind": "fullscreen", "shader": "fill.frag",
+                "slots": { "color": { "access": "write", "as": "color" } }, "connect": { "color": "att.Picture" } } ],
+  "exports": { "Picture": { "from": "Fill.color" } }
+})";
+
 int failed(const std::string& why) {
     std::fprintf(stderr, "consumer: %s\n", why.c_str());
     return 1;
@@ -19,14 +27,13 @@ int failed(const std::string& why) {
 }  // namespace
 
 int main() {
-    const auto tree = passes::PassTree::parse(passes::shippedText("hair_frame.pass.json"), "hair_frame.pass.json");
+    const auto tree = passes::PassTree::parse(frame, "consumer.pass.json");
     if (!tree) return failed(tree.error().text());
     passes::HostDescription host{.extent = {320, 200, 1}};
-    host.imports["DisplayConstants"] = {.present = true};
     const auto plan = (*tree)->compile(host);
     if (!plan) return failed(plan.error().text());
     for (const passes::PlanPass& pass : plan->passes) std::printf("%s\n", pass.name.c_str());
-    if (plan->passes.empty()) return failed("the shipped frame has no passes");
+    if (plan->passes.empty()) return failed("the frame has no passes");
 
     const auto instance = rhi::Instance::create({.label = "consumer"});
     if (!instance) return failed(rhi::toString(instance.error()));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // libFuzzer entry: any bytes, first as a document, then as a schema for itself.
-#include <pelage/json/value.hpp>
+#include <pelage/base/json.hpp>
 
 #include <cstddef>
 #include <cstdint>

@@ -13,7 +13,7 @@ namespace pelage::test {
 namespace {
 
 std::string shippedTree() {
-    auto bytes = hair::readFile(std::string(PELAGE_DATA_DIR) + "/passes/templates/hair_frame.pass.json");
+    auto bytes = hair::readFile(std::string(PELAGE_SOURCE_DIR) + "/hair/data/frames/hair_frame.pass.json");
     EXPECT_TRUE(bytes);
     return {reinterpret_cast<const char*>(bytes->data()), bytes->size()};
 }

@@ -2,7 +2,7 @@
 // Material types and shaders of a host's own: they are drawn, and what does not fit together is said.
 #include "gpu.hpp"
 #include "pictures.hpp"
-#include "renderer/material_check.hpp"
+#include "material/check.hpp"
 
 #include <pelage/hair/functors.hpp>
 

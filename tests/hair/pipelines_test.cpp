@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Which pipelines are made, when, on which thread, and what is drawn meanwhile.
-#include "renderer/pipelines.hpp"
+#include "frame/pipelines.hpp"
 #include "gpu.hpp"
 #include "pictures.hpp"
 

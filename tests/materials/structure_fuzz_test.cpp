@@ -6,7 +6,7 @@
 
 #include <pelage/materials/migrate.hpp>
 
-#include <pelage/json/value.hpp>
+#include <pelage/base/json.hpp>
 
 #include <filesystem>
 #include <map>

@@ -197,8 +197,8 @@ TEST(Fuzz, EveryValueDeletedOrReplaced) {
     lent.imports["SceneColor"] = {true, rhi::TextureFormat::RGBA16Float, {64, 48, 1}, 1};
     lent.imports["SceneDepth"] = {true, rhi::TextureFormat::Depth32Float, {64, 48, 1}, 1};
     lent.imports["FrameConstants"] = {true};
-    for (const auto& [text, host] : {std::pair(std::string(shippedText("hair_frame.pass.json")), frame),
-                                     std::pair(std::string(shippedText("hair_host.pass.json")), lent),
+    for (const auto& [text, host] : {std::pair(shippedText("hair_frame.pass.json"), frame),
+                                     std::pair(shippedText("hair_host.pass.json"), lent),
                                      std::pair(wholeGrammar(), test::host()), std::pair(moreGrammar(), moreHost())}) {
         silent.merge(eachEdit(text, host, tally));
     }
@@ -217,7 +217,7 @@ TEST(Fuzz, WhatOnlyMeaningForbidsIsRefused) {
     struct Case {
         const char *from, *to, *code;
     };
-    const std::string frame(shippedText("hair_frame.pass.json"));
+    const std::string frame = shippedText("hair_frame.pass.json");
     for (const Case& each : {Case{R"("values": ["1", "4"])", R"("values": ["1", "3", "4"])", "P043"},
                              Case{R"("values": ["1", "4"])", R"("values": ["1", "few", "4"])", "P043"},
                              Case{R"("clear": { "depth": "far" })", R"("clear": {})", "J011"},

@@ -165,21 +165,29 @@ TEST(Include, AWholeTreeHasANamePassesAndExports) {
     }
 }
 
-TEST(Include, ShippedTextsCanBeIncludedFromMemory) {
+TEST(Include, WhatIsNotBesideTheFileIsLookedForElsewhere) {
+    namespace fs = std::filesystem;
+    const fs::path folder = fs::temp_directory_path() / ("pelage_elsewhere_" + std::to_string(::getpid()));
+    fs::create_directories(folder);
+    const std::string mine = (folder / "mine.pass.json").string();
     // The shipped frame, with one more export.
-    const auto tree = PassTree::parse(
-        R"({ "format": "pelage.passtree/1", "name": "Mine", "include": ["hair_frame.pass.json"],
-             "exports": { "Shadows": { "from": "Shadow.map", "optional": true } } })",
-        "mine.pass.json");
+    std::ofstream(mine) << R"({ "format": "pelage.passtree/1", "name": "Mine", "include": ["hair_frame.pass.json"],
+             "exports": { "Shadows": { "from": "Shadow.map", "optional": true } } })";
+    const auto frames = [](const std::string& name) { return std::string(PELAGE_FRAMES) + "/" + name; };
+    const auto tree = PassTree::load(mine, frames);
     ASSERT_TRUE(tree) << tree.error().text();
     EXPECT_EQ((*tree)->name(), "Mine");
-    EXPECT_TRUE((*tree)->files().empty()) << "nothing was read from disk";
+    EXPECT_EQ((*tree)->files(), (std::vector<std::string>{mine, frames("hair_frame.pass.json")}));
     HostDescription lent{.extent = {64, 64, 1}};
     lent.imports["DisplayConstants"] = {true};
     const auto plan = (*tree)->compile(lent);
     ASSERT_TRUE(plan) << plan.error().text();
     EXPECT_EQ(plan->exports.count("Shadows"), 1U);
     EXPECT_EQ(plan->exports.count("HdrColor"), 1U);
+    const auto alone = PassTree::load(mine);
+    ASSERT_FALSE(alone);
+    EXPECT_EQ(codes(alone.error()), "P057") << alone.error().text();
+    fs::remove_all(folder);
 }
 
 TEST(Include, FilesOnDiskAreListedForReload) {

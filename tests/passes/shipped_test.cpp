@@ -11,7 +11,7 @@ namespace pelage::passes::test {
 namespace {
 
 std::string shipped() {
-    return std::string(shippedText("hair_frame.pass.json"));
+    return shippedText("hair_frame.pass.json");
 }
 HostDescription frame() {
     HostDescription host{.extent = {320, 200, 1}};
@@ -199,7 +199,7 @@ TEST(Schema, EveryMemberHasADescription) {
         for (const json::Member& member : value.members) walk(member.value, path + "/" + member.key);
         for (const json::Value& element : value.elements) walk(element, path);
     };
-    walk(readJson(std::string(shippedText("passtree.schema.json"))), "");
+    walk(readJson(std::string(passTreeSchema())), "");
     EXPECT_GT(members, 80U);
 }
 
@@ -219,8 +219,6 @@ TEST(ShippedFrame, NamesForTheHost) {
     EXPECT_EQ((*tree)->settings()[0].defaultValue.number, 1024U);
     EXPECT_EQ((*tree)->settings()[2].words, (Names{"1", "4"}));
     EXPECT_EQ((*tree)->settings()[2].defaultValue.number, 1U);
-    EXPECT_TRUE(shippedText("none.pass.json").empty());
-    EXPECT_FALSE(shippedText("passtree.schema.json").empty());
 }
 
 }  // namespace

@@ -1,9 +1,17 @@
 // SPDX-License-Identifier: MIT
 #include "tree_text.hpp"
 
+#include <fstream>
+#include <iterator>
 #include <gtest/gtest.h>
 
 namespace pelage::passes::test {
+
+std::string shippedText(const std::string& file) {
+    std::ifstream in(std::string(PELAGE_FRAMES) + "/" + file, std::ios::binary);
+    EXPECT_TRUE(in) << file;
+    return {std::istreambuf_iterator<char>(in), {}};
+}
 
 std::string wholeGrammar() {
     return R"json({

@@ -2,13 +2,15 @@
 // Texts for the tests: one tree that uses the whole grammar, and ways to edit and write JSON.
 #pragma once
 
-#include <pelage/json/value.hpp>
+#include <pelage/base/json.hpp>
 #include <pelage/passes/tree.hpp>
 
 #include <functional>
 
 namespace pelage::passes::test {
 
+/// The text of a frame that hair ships: "hair_frame.pass.json".
+std::string shippedText(const std::string& file);
 /// A tree with settings of each type, imports, a template, all kinds of passes and no fault.
 std::string wholeGrammar();
 /// Another, with what the first leaves out: buffers, histories, a class, counts from a buffer.

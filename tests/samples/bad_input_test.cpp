@@ -103,7 +103,7 @@ TEST_F(BadInput, UnknownSettingAndPass) {
     expectRefusal({"render", file, "-o", path("out.png"), "--setting", "msa=4"}, "msaa");
     expectRefusal({"render", file, "-o", path("out.png"), "--setting", "msaa=3"}, "msaa");
     expectRefusal({"render", file, "-o", path("out.png"), "--frame", "no_such_tree"}, "no_such_tree");
-    std::string tree = read(std::string(PELAGE_DATA_DIR) + "/passes/templates/hair_frame.pass.json");
+    std::string tree = read(std::string(PELAGE_SOURCE_DIR) + "/hair/data/frames/hair_frame.pass.json");
     const std::size_t at = tree.find("\"Resolve.color\"");
     ASSERT_NE(at, std::string::npos);
     tree.replace(at, 15, "\"Resolvee.color\"");

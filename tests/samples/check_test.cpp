@@ -16,7 +16,7 @@ class Check : public App {
 protected:
     static std::vector<std::string> shipped(const char* directory, const std::string& ending) {
         std::vector<std::string> files;
-        for (const auto& entry : fs::directory_iterator(fs::path(PELAGE_DATA_DIR) / directory)) {
+        for (const auto& entry : fs::directory_iterator(fs::path(PELAGE_SOURCE_DIR) / directory)) {
             if (entry.path().string().ends_with(ending)) files.push_back(entry.path().string());
         }
         return files;
@@ -32,13 +32,13 @@ protected:
 };
 
 TEST_F(Check, ShippedMaterialTypesAreClean) {
-    expectClean(shipped("materials/types", ".materialtype.json"));
+    expectClean(shipped("hair/data/types", ".materialtype.json"));
 }
 TEST_F(Check, ShippedMaterialsAreClean) {
-    expectClean(shipped("materials/presets", ".material.json"));
+    expectClean(shipped("hair/data/presets", ".material.json"));
 }
 TEST_F(Check, ShippedPassTreesAreClean) {
-    expectClean(shipped("passes/templates", ".pass.json"));
+    expectClean(shipped("hair/data/frames", ".pass.json"));
 }
 TEST_F(Check, ShippedScenesAreClean) {
     expectClean(shipped("samples/scenes", ".scene.json"));
@@ -58,7 +58,7 @@ TEST_F(Check, EveryFaultIsOneLine) {
 
 // The shipped type with one draw list renamed; a tree among the files that has it makes it right.
 TEST_F(Check, ADrawListThatNoTreeHasIsNamed) {
-    std::string type = read(std::string(PELAGE_DATA_DIR) + "/materials/types/hair.materialtype.json");
+    std::string type = read(std::string(PELAGE_SOURCE_DIR) + "/hair/data/types/hair.materialtype.json");
     type.replace(type.find("\"drawList\": \"shadow\""), 20, "\"drawList\": \"shadows\"");
     const std::string file = write("mine.materialtype.json", type);
     const RunResult warned = run({"check", file});
@@ -67,7 +67,7 @@ TEST_F(Check, ADrawListThatNoTreeHasIsNamed) {
               std::string::npos)
         << warned.err;
     EXPECT_NE(warned.err.find("did you mean 'shadow'?"), std::string::npos) << warned.err;
-    std::string tree = read(std::string(PELAGE_DATA_DIR) + "/passes/templates/hair_frame.pass.json");
+    std::string tree = read(std::string(PELAGE_SOURCE_DIR) + "/hair/data/frames/hair_frame.pass.json");
     tree.replace(tree.find("\"shadow\", \"depth\""), 8, "\"shadows\"");
     tree.replace(tree.find("\"drawList\": \"shadow\""), 20, "\"drawList\": \"shadows\"");
     const RunResult clean = run({"check", file, write("mine.pass.json", tree)});
@@ -138,7 +138,7 @@ TEST_F(Check, JsonIsOneObjectForEachFault) {
                                    "{ \"format\": \"pelage.scene/1\",\n"
                                    "  \"objects\": [],\n"
                                    "  \"exposure\": 1, \"exposure\": 2 }\n");
-    const std::string good = std::string(PELAGE_DATA_DIR) + "/passes/templates/hair_frame.pass.json";
+    const std::string good = std::string(PELAGE_SOURCE_DIR) + "/hair/data/frames/hair_frame.pass.json";
     const RunResult result = run({"check", "--json", good, file, path("gone.pass.json")});
     EXPECT_EQ(result.exitCode, 2);
     EXPECT_EQ(result.err, "");

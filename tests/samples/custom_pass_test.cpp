@@ -9,7 +9,7 @@ namespace {
 
 class CustomPass : public App {
 protected:
-    static std::string tree() { return std::string(PELAGE_DATA_DIR) + "/samples/custom_pass/outline.pass.json"; }
+    static std::string tree() { return std::string(PELAGE_SOURCE_DIR) + "/samples/custom_pass/outline.pass.json"; }
 
     hair::Image8 picture(const std::string& name, const std::string& setting) const {
         const RunResult result = run({"--validation", name, "96", tree(), setting});

@@ -8,7 +8,7 @@ namespace {
 class Graph : public App {
 protected:
     static std::string tree(const char* name) {
-        return std::string(PELAGE_DATA_DIR) + "/passes/templates/" + name + ".pass.json";
+        return std::string(PELAGE_SOURCE_DIR) + "/hair/data/frames/" + name + ".pass.json";
     }
 };
 

@@ -22,9 +22,9 @@ protected:
         App::SetUp();
         gpu_ = app::openGpu({.validation = true});
         ASSERT_TRUE(gpu_) << gpu_.error().line;
-        const fs::path data = PELAGE_DATA_DIR;
-        write("mine.pass.json", read((data / "passes/templates/hair_frame.pass.json").string()));
-        write("hair.materialtype.json", read((data / "materials/types/hair.materialtype.json").string()));
+        const fs::path data = PELAGE_SOURCE_DIR;
+        write("mine.pass.json", read((data / "hair/data/frames/hair_frame.pass.json").string()));
+        write("hair.materialtype.json", read((data / "hair/data/types/hair.materialtype.json").string()));
         write("mine.material.json", material("[0.5, 0.3, 0.2]"));
         write("mine.scene.json", R"({ "format": "pelage.scene/1", "passTree": "./mine.pass.json",
             "objects": [{ "name": "hair", "generate": { "kind": "groom", "strands": 40 },
@@ -180,7 +180,7 @@ TEST_F(Reload, TwoQuickEditsAndATouch) {
 }
 
 TEST_F(Reload, IncludedFilesAreWatched) {
-    std::string tree = read(std::string(PELAGE_DATA_DIR) + "/passes/templates/hair_frame.pass.json");
+    std::string tree = read(std::string(PELAGE_SOURCE_DIR) + "/hair/data/frames/hair_frame.pass.json");
     const std::size_t from = tree.find("\"displayTransform\": {"), to = tree.find('}', from) + 1;
     const std::string setting = tree.substr(from, to - from);
     tree.erase(tree.rfind(',', from), to - tree.rfind(',', from));

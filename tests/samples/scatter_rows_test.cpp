@@ -217,7 +217,7 @@ TEST_F(Scatter, BadRowsAreNamedAndTheOthersEvaluated) {
 }
 
 TEST_F(Scatter, ShippedTuplesAreTheTruth) {
-    const std::string shipped = std::string(PELAGE_DATA_DIR) + "/samples/scattering/tuples.csv";
+    const std::string shipped = std::string(PELAGE_SOURCE_DIR) + "/samples/scattering/tuples.csv";
     const RunResult result = run({"scatter", "--exact", shipped});
     EXPECT_EQ(result.exitCode, 0) << result.err;
     // The last digits are those of a C library's exp and sin.

@@ -10,7 +10,7 @@ namespace {
 
 class Schema : public App {
 protected:
-    static std::string shipped(const std::string& file) { return read(std::string(PELAGE_DATA_DIR) + "/" + file); }
+    static std::string shipped(const std::string& file) { return read(std::string(PELAGE_SOURCE_DIR) + "/" + file); }
 
     void expectPage(const std::string& name, const std::string& page) const {
         const RunResult made = run({"schema", name, "--markdown"});
@@ -54,8 +54,8 @@ TEST_F(Schema, PageOfMaterialsIsWhatTheSchemaGives) {
 }
 
 TEST_F(Schema, EveryMemberIsExplained) {
-    for (const char* file : {"passes/templates/passtree.schema.json", "materials/types/materialtype.schema.json",
-                             "materials/types/material.schema.json"}) {
+    for (const char* file : {"passes/data/passtree.schema.json", "materials/data/materialtype.schema.json",
+                             "materials/data/material.schema.json"}) {
         std::size_t members = 0;
         std::string unexplained;
         findUnexplained(nlohmann::json::parse(shipped(file)), "", members, unexplained);
@@ -65,7 +65,7 @@ TEST_F(Schema, EveryMemberIsExplained) {
 }
 
 TEST_F(Schema, TheTextItselfIsPrinted) {
-    EXPECT_EQ(run({"schema", "passtree"}).out, shipped("passes/templates/passtree.schema.json"));
+    EXPECT_EQ(run({"schema", "passtree"}).out, shipped("passes/data/passtree.schema.json"));
     expectRefusal({"schema", "passtre"}, "A121");
 }
 

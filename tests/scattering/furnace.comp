@@ -4,7 +4,7 @@
 // the light: lavapipe ends every loop once an invocation has gone 65,536 times around loops in all.
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "packed_fiber.glsl"
+#include "scattering/packed_fiber.glsl"
 
 layout(constant_id = 0) const int scatteringModel = 8;
 layout(constant_id = 1) const bool asPublished = false;
@@ -22,7 +22,7 @@ layout(set = 0, binding = 2) uniform texture2DArray momentTable;
 layout(set = 0, binding = 3) uniform sampler s_linear;
 
 #define MOMENT_TEXTURE sampler2DArray(momentTable, s_linear)
-#include "moment_texture.glsl"
+#include "material/moment_texture.glsl"
 
 void main() {
     uint id = gl_GlobalInvocationID.x / uint(steps), i = gl_GlobalInvocationID.x % uint(steps);

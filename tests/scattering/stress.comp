@@ -3,8 +3,8 @@
 // What it finds goes into a few counters: how often a value was no number or negative, and the worst of what is bounded.
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "hash.glsl"
-#include "packed_fiber.glsl"
+#include "visibility/hash.glsl"
+#include "scattering/packed_fiber.glsl"
 
 layout(constant_id = 0) const int scatteringModel = 8;
 layout(constant_id = 1) const bool asPublished = false;
@@ -29,7 +29,7 @@ float next() {
 }
 
 #define MOMENT_TEXTURE sampler2DArray(momentTable, s_linear)
-#include "moment_texture.glsl"
+#include "material/moment_texture.glsl"
 
 vec3 direction(float z, float phi) {
     float r = sqrt(max(1.0 - z * z, 0.0));

@@ -3,8 +3,6 @@
 // Units: metres, +Y up, right-handed. The strand direction u always points from root to tip.
 #pragma once
 
-#include <pelage/json/diagnostic.hpp>
-
 #include <glm/glm.hpp>
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Finds the shipped data files by name: material types, material presets, pass trees. A data directory has the layout
-// of the source tree: materials/types, materials/presets, passes/templates.
+// Finds the shipped data files by name: material types, material presets, pass trees. A data directory holds
+// types/, presets/, frames/ and schemas/; in the source tree it is hair/data.
 #pragma once
 
 #include <pelage/hair/scene.hpp>

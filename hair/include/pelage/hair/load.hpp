@@ -3,6 +3,7 @@
 // a fault is one Diagnostic that names the file, what was found, what was expected and what to do.
 #pragma once
 
+#include <pelage/base/diagnostic.hpp>
 #include <pelage/hair/geometry.hpp>
 
 #include <cstddef>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include <pelage/hair/scattering.hpp>
-#include <pelage/json/diagnostic.hpp>
+#include <pelage/base/diagnostic.hpp>
 #include <pelage/rhi/rhi.hpp>
 
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Scattering of light by one fibre, on the CPU: the same source that the shaders are made of (hair/shaders/scattering),
+// Scattering of light by one fibre, on the CPU: the same source that the shaders are made of (hair/scattering/models),
 // compiled in float and in double. What is left between the two is rounding; how far a model is from the truth is asked
 // of pelage::reference. No device is needed.
 //

@@ -2,7 +2,7 @@
 // Settings of a pass tree as people write them, in scene files and on command lines.
 #pragma once
 
-#include <pelage/json/diagnostic.hpp>
+#include <pelage/base/diagnostic.hpp>
 #include <pelage/passes/tree.hpp>
 
 #include <algorithm>

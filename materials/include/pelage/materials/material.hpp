@@ -4,7 +4,7 @@
 // differ. Both are checked when read; every fault is a Diagnostic with its place.
 #pragma once
 
-#include <pelage/json/diagnostic.hpp>
+#include <pelage/base/diagnostic.hpp>
 #include <pelage/materials/functor.hpp>
 #include <pelage/rhi/resources.hpp>
 

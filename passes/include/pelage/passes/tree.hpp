@@ -4,7 +4,7 @@
 // here.
 #pragma once
 
-#include <pelage/json/diagnostic.hpp>
+#include <pelage/base/diagnostic.hpp>
 #include <pelage/rhi/types.hpp>
 
 #include <functional>
@@ -112,20 +112,21 @@ struct Plan;
 
 /// Gives the text of an included file, or nothing when there is none of that path.
 using TextReader = std::function<std::optional<std::string>(const std::string& path)>;
+/// Gives the path at which a file may be found that is not beside the one that includes it.
+using IncludePath = std::function<std::string(const std::string& name)>;
 
 class PassTree {
 public:
     /// Reads a tree from memory; `file` is its name in messages. What "include" names is looked up in the folder of the
-    /// file that says so: by `reader` when one is given, else only among the shipped texts.
+    /// file that says so: by `reader`; without one nothing can be included.
     static Checked<std::shared_ptr<const PassTree>> parse(std::string_view text, const std::string& file,
                                                           const TextReader& reader = {});
-    /// Reads a file and what it includes: files beside it, else shipped texts of that name.
-    static Checked<std::shared_ptr<const PassTree>> load(const std::string& path);
+    /// Reads a file and what it includes: files beside it, else those at `elsewhere(name)`.
+    static Checked<std::shared_ptr<const PassTree>> load(const std::string& path, const IncludePath& elsewhere = {});
 
     const std::string& name() const;
     const std::string& file() const;
-    /// Every file that was read, the tree's own first; a host that reloads on a change watches these. Shipped texts are
-    /// no files and not listed.
+    /// Every file that was read, the tree's own first; a host that reloads on a change watches these.
     const std::vector<std::string>& files() const;
     const std::vector<SettingInfo>& settings() const;
     std::vector<std::string> drawLists() const;
@@ -223,7 +224,7 @@ struct Plan {
     std::string dot() const;
 };
 
-/// The text of a shipped tree ("hair_frame.pass.json") or of its schema ("passtree.schema.json"); empty when unknown.
-std::string_view shippedText(std::string_view file);
+/// The JSON schema of pass trees, which load() and parse() check with.
+std::string_view passTreeSchema();
 
 }  // namespace pelage::passes

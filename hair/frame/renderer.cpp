@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: MIT
+// The glue: scene -> views, uploads and material bindings; pass tree -> graph; draw lists -> draws.
+#include "state.hpp"
+
+#include <glm/gtc/packing.hpp>
+
+#include <algorithm>
+#include <cstring>
+
+namespace pelage::hair {
+
+namespace detail {
+std::span<const std::uint32_t> embeddedShader(std::string_view name);
+std::span<const std::string_view> embeddedShaderNames();
+}  // namespace detail
+
+Diagnostic toDiagnostic(const rhi::Error& error) {
+    Diagnostic diagnostic;
+    const std::string number = std::to_string(static_cast<unsigned>(error.code));
+    diagnostic.code = "R" + std::string(number.size() < 3 ? 3 - number.size() : 0, '0') + number;
+    diagnostic.text = error.message;
+    for (const std::string& context : error.context) diagnostic.text += " While validating " + context + ".";
+    return diagnostic;
+}
+
+std::span<const std::uint32_t> Renderer::shaderCode(const std::string& file) {
+    return detail::embeddedShader(file);
+}
+
+std::vector<std::string> Renderer::shaderNames() {
+    const auto names = detail::embeddedShaderNames();
+    return {names.begin(), names.end()};
+}
+
+rhi::Result<rhi::ShaderModule> Renderer::State::module(const std::string& file) {
+    if (const auto found = modules.find(file); found != modules.end()) return found->second;
+    std::span<const std::uint32_t> code;
+    if (hostShaders) code = hostShaders(file);
+    if (code.empty()) code = detail::embeddedShader(file);
+    if (code.empty()) {
+        std::string known;
+        for (const std::string_view name : detail::embeddedShaderNames())
+            known += (known.empty() ? "" : ", ") + std::string(name);
+        return tl::unexpected(rhi::Error{rhi::ErrorKind::Validation,
+                                         rhi::ErrorCode::ShaderInvalid,
+                                         "There is no shader \"" + file + "\"; this build has " + known + ".",
+                                         {}});
+    }
+    auto made = device.createShaderModule({.label = file, .code = {code.begin(), code.end()}});
+    if (made) modules.emplace(file, *made);
+    return made;
+}
+
+Outcome<Renderer> Renderer::create(Descriptor descriptor) {
+    if (!descriptor.device || !descriptor.tree) {
+        return tl::unexpected(Diagnostic{.code = "H100",
+                                         .text = "a renderer needs a device and a pass tree",
+                                         .hint = "fill Renderer::Descriptor::device and ::tree"});
+    }
+    auto sampler = descriptor.device.createSampler({.label = "material",
+                                                    .addressModeU = rhi::AddressMode::Repeat,
+                                                    .addressModeV = rhi::AddressMode::Repeat,
+                                                    .magFilter = rhi::FilterMode::Linear,
+                                                    .minFilter = rhi::FilterMode::Linear,
+                                                    .mipmapFilter = rhi::FilterMode::Linear});
+    if (!sampler) return tl::unexpected(toDiagnostic(sampler.error()));
+    Renderer renderer;
+    renderer.state_ = std::make_shared<State>(descriptor, *sampler);
+    State& state = *renderer.state_;
+    state.tree = descriptor.tree;
+    State* raw = renderer.state_.get();
+    state.graph = passes::Graph({.device = descriptor.device,
+                                 .shaders = [raw](const std::string& file) { return raw->module(file); },
+                                 .measure = descriptor.measure,
+                                 .classes = std::move(descriptor.classes)});
+    auto block = descriptor.device.createBuffer(
+        {.label = "display constants", .size = 16, .usage = rhi::BufferUsage::Uniform | rhi::BufferUsage::CopyDst});
+    if (!block) return tl::unexpected(toDiagnostic(block.error()));
+    state.displayBlock = *block;
+    return renderer;
+}
+
+Outcome<void> Renderer::setTree(std::shared_ptr<const passes::PassTree> tree) {
+    State& state = *state_;
+    if (state.built) {
+        auto built = state.graph.build(*tree, state.host);
+        if (!built) return tl::unexpected(firstError(built.error()));
+        ++state.graphBuilds;
+    }
+    state.tree = std::move(tree);
+    state.checkedTypes.clear();
+    return {};
+}
+
+Outcome<void> Renderer::encode(Scene& scene, const FrameSettings& settings, rhi::CommandEncoder& encoder) {
+    State& state = *state_;
+    state.frame = {};
+    if (scene.objects.empty()) {
+        return tl::unexpected(Diagnostic{.code = "H101", .text = "the scene has no objects", .hint = "add hair to it"});
+    }
+    if (scene.lights.size() > maxLights) {
+        return tl::unexpected(Diagnostic{.code = "H102",
+                                         .text = "the scene has " + std::to_string(scene.lights.size()) +
+                                                 " lights, the most is " + std::to_string(maxLights),
+                                         .hint = "merge or delete lights"});
+    }
+    std::uint32_t shadowSize = 1, shadowLights = 0;
+    if (auto built = state.buildGraph(scene, settings, shadowSize, shadowLights); !built) return built;
+    const FrameViews views = makeViews(scene, settings, shadowSize, shadowLights);
+    state.shadowsOff = views.shadows.empty();
+    state.environmentOff = !scene.environment.enabled();
+    if (auto prepared = state.prepareObjects(scene, views); !prepared) return prepared;
+    if (auto written = state.writeView(0, views.main); !written) return written;
+    for (std::size_t i = 0; i < views.shadows.size(); ++i) {
+        if (auto written = state.writeView(i + 1, views.shadows[i]); !written) return written;
+    }
+    const glm::vec4 display(scene.background, scene.exposure);
+    auto shown = state.device.queue().writeBuffer(state.displayBlock, 0, std::as_bytes(std::span(&display, 1)));
+    if (!shown) return tl::unexpected(toDiagnostic(shown.error()));
+    auto irradiance = state.uploads.irradiance(scene.environment);
+    if (!irradiance) return tl::unexpected(irradiance.error());
+
+    passes::FrameImports imports;
+    imports.textures["EnvIrradiance"] = *irradiance;
+    imports.buffers["DisplayConstants"] = state.displayBlock;
+    imports.buffers["FrameConstants"] = state.views[0].block;
+    for (const auto& [name, texture] : settings.imports) imports.textures[name] = texture;
+    auto recorded = state.graph.record(encoder, imports,
+                                       [&](passes::RasterContext& context) { return state.draw(scene, context); });
+    if (!recorded) return tl::unexpected(toDiagnostic(recorded.error()));
+    return {};
+}
+
+rhi::Texture Renderer::displayTexture() const {
+    return state_->graph.exported("LdrColor");
+}
+rhi::Texture Renderer::colorTexture() const {
+    return state_->graph.exported("HdrColor");
+}
+const passes::Plan& Renderer::plan() const {
+    return state_->graph.plan();
+}
+
+namespace {
+
+// A texture's first level and layer, as a tightly packed buffer to map.
+rhi::Result<rhi::Buffer> copyOut(const rhi::Device& device, rhi::CommandEncoder& encoder, const rhi::Texture& texture) {
+    const rhi::Extent3D size = texture.size();
+    const std::uint64_t bytes = std::uint64_t{size.width} * size.height * rhi::bytesPerTexel(texture.format());
+    auto buffer = device.createBuffer({.label = texture.label() + " readback",
+                                       .size = bytes,
+                                       .usage = rhi::BufferUsage::MapRead | rhi::BufferUsage::CopyDst});
+    if (buffer) encoder.copyTextureToBuffer({.texture = texture}, {.buffer = *buffer}, {size.width, size.height, 1});
+    return buffer;
+}
+
+}  // namespace
+
+Outcome<Picture> Renderer::render(Scene& scene, const FrameSettings& settings) {
+    State& state = *state_;
+    rhi::CommandEncoder encoder = state.device.createCommandEncoder("frame");
+    if (auto encoded = encode(scene, settings, encoder); !encoded) return tl::unexpected(encoded.error());
+    Picture picture = {.width = settings.width, .height = settings.height};
+    rhi::Buffer linear, display;
+    for (auto [texture, buffer] : {std::pair{colorTexture(), &linear}, std::pair{displayTexture(), &display}}) {
+        if (!texture) continue;
+        auto made = copyOut(state.device, encoder, texture);
+        if (!made) return tl::unexpected(toDiagnostic(made.error()));
+        *buffer = *made;
+    }
+    auto commands = encoder.finish();
+    if (!commands) return tl::unexpected(toDiagnostic(commands.error()));
+    auto submission = state.device.queue().submit(*commands);
+    if (!submission) return tl::unexpected(toDiagnostic(submission.error()));
+    auto waited = state.device.queue().wait(*submission);
+    if (!waited) return tl::unexpected(toDiagnostic(waited.error()));
+    const std::size_t pixels = std::size_t{settings.width} * settings.height;
+    if (linear) {
+        picture.linear.resize(pixels * 4);
+        const auto bytes = linear.mapped();
+        for (std::size_t i = 0; i < picture.linear.size(); ++i) {
+            std::uint16_t half = 0;
+            std::memcpy(&half, bytes.data() + 2 * i, 2);
+            picture.linear[i] = glm::unpackHalf1x16(half);
+        }
+    }
+    if (display) {
+        picture.display.resize(pixels * 4);
+        std::memcpy(picture.display.data(), display.mapped().data(), picture.display.size());
+    }
+    state.frame.draws = commands->counters().draws;
+    state.frame.barriers = commands->counters().barriers;
+    picture.report = report();
+    state.device.collect();
+    return picture;
+}
+
+void Renderer::waitForPipelines() {
+    state_->pipelines.wait();
+}
+
+FrameReport Renderer::report() const {
+    const State& state = *state_;
+    FrameReport report = state.frame;
+    report.pipelinesPending = state.pipelines.pending();
+    report.pipelinesMade = state.pipelines.made();
+    report.passes = state.graph.reports();
+    report.gpuMilliseconds = state.graph.frameMilliseconds();
+    for (const passes::PlanResource& resource : state.graph.plan().resources) {
+        if (resource.kind != passes::PlanResource::Kind::Transient || resource.isBuffer) continue;
+        report.attachments.push_back({resource.name,
+                                      std::string(rhi::name(resource.format)),
+                                      {resource.extent.width, resource.extent.height, resource.layers},
+                                      resource.samples,
+                                      resource.bytes});
+    }
+    report.culled = state.graph.plan().culled;
+    return report;
+}
+
+}  // namespace pelage::hair

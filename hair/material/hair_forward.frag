@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: MIT
+// Hair lit fibre by fibre under punctual lights with shadows, one irradiance sample, ambient.
+#version 450
+#extension GL_GOOGLE_include_directive : require
+#include "shaders/options.glsl"
+#include "shaders/frame.glsl"
+#define VARYING in
+#include "shaders/varyings.glsl"
+#include "lighting/shadow.glsl"
+#include "lighting/environment.glsl"
+#include "lighting/light.glsl"
+#include "material_common.glsl"
+#include "fiber_material.glsl"
+#include "surface.glsl"
+
+// Nothing here discards: what the depth pass has hidden is not shaded.
+layout(early_fragment_tests) in;
+layout(location = 0) out vec4 o_color;  // scene-linear, premultiplied
+
+void main() {
+    Surface s = fetchSurface();
+    FiberMaterial m = fiberMaterial(s.color);
+    MomentRow row = fetchRow(m, length(cross(s.tangent, s.wo)));
+    float h = scatteringModel == MODEL_CHIANG ? fragmentOffset(gl_FragCoord.xy, v_strand.x) : 0.0;
+    vec3 radiance = vec3(0.0);
+    vec3 ambient = frame.ambient.rgb;
+    int count = int(frame.eye.w);
+    for (int i = 0; i < count; ++i) {
+        Incident incident = incidentLight(frame.lights[i], s.world);
+        float lit = shadowTransmittance(frame.lights[i], s.world, material.shadowDensity, material.shadowBias);
+        vec3 arriving = incident.irradiance * lit;
+        FiberAngles a = fiberAngles(s.tangent, incident.direction, s.wo);
+        a.h = h;
+        a.cosGamma = sqrt(max(1.0 - h * h, 0.0));
+        radiance += scatter(a, m, row, true) * arriving;
+        ambient += arriving * isotropic;
+    }
+    if (envOn) {
+        // One sample in the direction of the normal, with wider lobes for the size of what it stands for (Karis 2016).
+        // No TT, which would need what lies behind the hair (thesis section 4.4).
+        m.inverseVariance = material.envInverseVariance;
+        m.norm = material.envNorm;
+        m.deviation = material.envDeviation;
+        FiberAngles a = fiberAngles(s.tangent, s.normal, s.wo);
+        a.h = h;
+        a.cosGamma = sqrt(max(1.0 - h * h, 0.0));
+        radiance += scatter(a, m, row, false) * environmentIrradiance(s.normal) * material.envScale;
+    }
+    if (ambientOn) radiance += m.color * ambient * material.ambientScatter;
+    o_color = finish(radiance, s);
+}
