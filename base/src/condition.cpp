@@ -109,9 +109,9 @@ private:
         lexer_.advance();
         return true;
     }
-    std::optional<Term> fail(std::string code, std::size_t where, std::string text, std::string hint = {}) {
+    std::optional<Term> fail(Code code, std::size_t where, std::string text, std::string hint = {}) {
         if (!fault_)
-            fault_ = Diagnostic{Severity::Error, std::move(code), {}, 1, static_cast<std::uint32_t>(where + 1),
+            fault_ = Diagnostic{Severity::Error, code, {}, 1, static_cast<std::uint32_t>(where + 1),
                                 std::move(text), std::move(hint)};
         return {};
     }
@@ -317,7 +317,7 @@ private:
     int depth_ = 0;
 };
 
-Outcome<Condition> Condition::parse(std::string_view text, const ConditionNames& names) {
+Result<Condition> Condition::parse(std::string_view text, const ConditionNames& names) {
     Condition condition;
     if (text.size() > longest) {
         return tl::unexpected<Diagnostic>(

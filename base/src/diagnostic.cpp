@@ -53,15 +53,37 @@ std::string toString(const Diagnostic& diagnostic) {
     out += severityWord(diagnostic.severity);
     if (!diagnostic.code.empty()) {
         out += ' ';
-        appendOnOneLine(out, diagnostic.code);
+        out += diagnostic.code.text();
     }
     out += ": ";
     appendOnOneLine(out, diagnostic.text);
+    for (std::size_t i = diagnostic.context.size(); i-- > 0;) {
+        out += i + 1 == diagnostic.context.size() ? "; while validating " : " > ";
+        appendOnOneLine(out, diagnostic.context[i]);
+    }
     if (!diagnostic.hint.empty()) {
         out += "; hint: ";
         appendOnOneLine(out, diagnostic.hint);
     }
     return out;
+}
+
+Diagnostics::Diagnostics(Diagnostic one) {
+    items_.push_back(std::move(one));
+}
+
+const Diagnostic& Diagnostics::first() const {
+    static const Diagnostic none = {};
+    const auto found =
+        std::find_if(items_.begin(), items_.end(), [](const Diagnostic& d) { return d.severity == Severity::Error; });
+    if (found != items_.end()) return *found;
+    return items_.empty() ? none : items_.front();
+}
+
+Diagnostics Diagnostics::within(const std::string& context) const {
+    Diagnostics all = *this;
+    for (Diagnostic& each : all.items_) each.context.push_back(context);
+    return all;
 }
 
 void Diagnostics::add(Diagnostic diagnostic) {

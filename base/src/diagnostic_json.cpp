@@ -88,9 +88,11 @@ std::string toJson(const Diagnostic& diagnostic) {
     const std::string hinted = places(diagnostic.hint, diagnostic.file);
     if (!related.empty() && !hinted.empty()) related += ",";
     related += hinted;
+    std::string context;
+    for (const std::string& each : diagnostic.context) context += (context.empty() ? "" : ",") + quoted(each);
     return "{" + place(diagnostic.file, diagnostic.line, diagnostic.column) + ",\"severity\":\"" +
-           std::string(severityWord(diagnostic.severity)) + "\",\"code\":" + quoted(diagnostic.code) +
-           ",\"text\":" + quoted(diagnostic.text) + ",\"hint\":" + quoted(diagnostic.hint) + ",\"related\":[" +
+           std::string(severityWord(diagnostic.severity)) + "\",\"code\":" + quoted(std::string(diagnostic.code.text())) +
+           ",\"text\":" + quoted(diagnostic.text) + ",\"hint\":" + quoted(diagnostic.hint) + ",\"context\":[" + context + "],\"related\":[" +
            related + "]}";
 }
 

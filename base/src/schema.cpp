@@ -31,7 +31,8 @@ private:
         const Value* element = nullptr;
     };
     struct Context {
-        std::string_view code = {}, hint = {};  // "x-code" and "x-hint" hold for everything below them
+        Code code = {};
+        std::string_view hint = {};  // "x-code" and "x-hint" hold for everything below them
     };
 
     std::string path() const {
@@ -53,12 +54,12 @@ private:
         return out.empty() ? "the document" : out;
     }
 
-    void report(Place place, std::string_view code, const Context& context, std::string text, std::string hint = {}) {
+    void report(Place place, Code code, const Context& context, std::string text, std::string hint = {}) {
         if (muted_) {
             failed_ = true;
             return;
         }
-        out_.add({Severity::Error, std::string(context.code.empty() ? code : context.code), document_.file, place.line,
+        out_.add({Severity::Error, context.code.empty() ? code : context.code, document_.file, place.line,
                   place.column, std::move(text), context.hint.empty() ? std::move(hint) : std::string(context.hint)});
     }
 
@@ -93,7 +94,7 @@ private:
         }
         if (depth_ > deepestSchema) return;
         ++depth_;
-        if (const Value* code = schema.find("x-code")) context.code = code->string;
+        if (const Value* code = schema.find("x-code")) context.code = Code::find(code->string).value_or(Code());
         if (const Value* hint = schema.find("x-hint")) context.hint = hint->string;
         if (const Value* reference = schema.find("$ref")) {
             if (const Value* target = resolveReference(schema_.root, reference->string)) check(*target, value, context);
@@ -303,7 +304,7 @@ private:
         for (const Value& branch : branches.elements) fitting += fits(branch, value) ? 1 : 0;
         if (fitting == 1 || (fitting > 1 && keyword == "anyOf")) return;
         if (const Value* error = schema.find("x-error"))
-            return report(value.place, error->elements[0].string, {{}, context.hint},
+            return report(value.place, Code::find(error->elements[0].string).value_or(Code()), {{}, context.hint},
                           path() + " " + error->elements[1].string);
         if (fitting > 1) return report(value.place, "J021", context, path() + " fits more than one of its forms");
         if (const Value* branch = intended(branches, value)) return check(*branch, value, context);
@@ -362,8 +363,8 @@ struct Schema::Compiled {
     Patterns patterns = {};
 };
 
-Checked<Schema> Schema::parse(std::string_view text, std::string_view file) {
-    Checked<Document> document = json::parse(text, file);
+Result<Schema> Schema::parse(std::string_view text, std::string_view file) {
+    Result<Document> document = json::parse(text, file);
     if (!document) return tl::unexpected<Diagnostics>(std::move(document.error()));
     auto compiled = std::make_shared<Compiled>();
     compiled->document = std::move(*document);

@@ -62,6 +62,7 @@ public:
         for (const Member& member : value.members) {
             if (member.key == "x-code" || member.key == "x-hint") {
                 if (!member.value.isString()) fault(member.value.place, member.key + " must be a string");
+                if (member.key == "x-code") codeWord(member.value);
                 continue;
             }
             const Keyword* known = nullptr;
@@ -119,6 +120,7 @@ private:
                 break;
             case Shape::Error:
                 expect(isWords(value) && value.elements.size() == 2, keyword, value, "[code, text]");
+                if (!value.elements.empty()) codeWord(value.elements.front());
                 break;
             case Shape::Values:
                 expect(value.isArray(), keyword, value, "a list");
@@ -134,6 +136,12 @@ private:
                 expect(value.isObject(), keyword, value, "an object of schemas");
                 for (const Member& member : value.members) schema(member.value);
                 break;
+        }
+    }
+
+    void codeWord(const Value& value) {
+        if (value.isString() && !Code::find(value.string)) {
+            fault(value.place, "\"" + value.string + "\" is no code of codes.def");
         }
     }
 

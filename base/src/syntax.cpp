@@ -156,9 +156,9 @@ Diagnostic explainSyntax(std::string_view all, const Lines& lines, const Progres
                          std::string_view stringProblem, bool numberTooBig) {
     using After = Progress::After;
     Diagnostic out;
-    const auto report = [&](std::size_t at, std::string code, std::string text, std::string hint) {
+    const auto report = [&](std::size_t at, Code code, std::string text, std::string hint) {
         const Place place = lines.at(std::min(at, all.size()));
-        out.code = std::move(code);
+        out.code = code;
         out.line = place.line;
         out.column = place.column;
         out.text = std::move(text);

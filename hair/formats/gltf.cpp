@@ -54,22 +54,21 @@ public:
         cards_.name = name;
     }
 
-    Outcome<Geometry> read() {
-        if (auto fault = walkScene()) return tl::unexpected(std::move(*fault));
+    Result<Geometry> read() {
+        if (auto done = walkScene(); !done) return tl::unexpected(done.error());
         if (cards_.indices.empty()) {
-            return tl::unexpected(reading::fault("G012", name_, "the default scene holds no triangles, expected cards",
-                                                 "export the meshes together with the scene"));
+            return reading::fault("G012", name_, "the default scene holds no triangles, expected cards",
+                                                 "export the meshes together with the scene");
         }
-        if (auto fault = readTexture()) return tl::unexpected(std::move(*fault));
+        if (auto read = readTexture(); !read) return tl::unexpected(read.error());
         cards_.updateBounds();
         finish();
         return std::move(cards_);
     }
 
 private:
-    using Fault = std::optional<Diagnostic>;
-
-    Fault walkScene() {
+    
+    Result<void> walkScene() {
         struct Visit {
             int node;
             glm::dmat4 parent;
@@ -98,15 +97,15 @@ private:
                 return fault("G015", name_, self + " has a transformation that is no finite matrix", kExportAgain);
             }
             if (node.mesh >= 0) {
-                if (auto wrong = addMesh(node.mesh, world)) return wrong;
+                if (auto done = addMesh(node.mesh, world); !done) return done;
             }
             for (const int child : node.children) pending.push_back({child, world});
         }
-        if (!model_.nodes.empty()) return std::nullopt;
+        if (!model_.nodes.empty()) return {};
         for (std::size_t m = 0; m < model_.meshes.size(); ++m) {  // a file without nodes: meshes as they are
-            if (auto wrong = addMesh(static_cast<int>(m), glm::dmat4(1.0))) return wrong;
+            if (auto done = addMesh(static_cast<int>(m), glm::dmat4(1.0)); !done) return done;
         }
-        return std::nullopt;
+        return {};
     }
 
     /// The default scene's nodes; without scenes, every node that is nobody's child.
@@ -130,7 +129,7 @@ private:
         return list;
     }
 
-    Fault addMesh(int index, const glm::dmat4& world) {
+    Result<void> addMesh(int index, const glm::dmat4& world) {
         if (static_cast<std::size_t>(index) >= model_.meshes.size()) {
             return fault("G015", name_,
                          "mesh " + std::to_string(index) + " does not exist; the file has " +
@@ -140,12 +139,12 @@ private:
         const tinygltf::Mesh& mesh = model_.meshes[static_cast<std::size_t>(index)];
         for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
             const std::string place = "mesh " + std::to_string(index) + " primitive " + std::to_string(p);
-            if (auto wrong = addPrimitive(mesh.primitives[p], world, place)) return wrong;
+            if (auto done = addPrimitive(mesh.primitives[p], world, place); !done) return done;
         }
-        return std::nullopt;
+        return {};
     }
 
-    Fault addPrimitive(const tinygltf::Primitive& primitive, const glm::dmat4& world, const std::string& place) {
+    Result<void> addPrimitive(const tinygltf::Primitive& primitive, const glm::dmat4& world, const std::string& place) {
         const int mode = primitive.mode;
         if (mode < TINYGLTF_MODE_TRIANGLES || mode > TINYGLTF_MODE_TRIANGLE_FAN) {
             return fault("G011", name_,
@@ -156,31 +155,31 @@ private:
         for (const char* semantic : {"POSITION", "TEXCOORD_0"}) {
             if (primitive.attributes.contains(semantic)) continue;
             const bool position = semantic[0] == 'P';
-            return fault(position ? "G006" : "G007", name_, place + " has no " + semantic,
+            return fault(position ? Code("G006") : Code("G007"), name_, place + " has no " + semantic,
                          position ? "export the mesh again"
                                   : "unwrap the cards: the strand direction is the v axis of their texture");
         }
         const auto first = static_cast<std::uint32_t>(cards_.vertices.size());
-        if (auto wrong = addVertices(primitive, world, place)) return wrong;
-        if (auto wrong = addTriangles(primitive, first, glm::determinant(glm::dmat3(world)) < 0, place)) return wrong;
+        if (auto done = addVertices(primitive, world, place); !done) return done;
+        if (auto done = addTriangles(primitive, first, glm::determinant(glm::dmat3(world)) < 0, place); !done) return done;
         if (material_ < 0) material_ = primitive.material;
         if (primitive.material >= 0 && primitive.material != material_) otherMaterials_ = true;
-        return std::nullopt;
+        return {};
     }
 
-    Fault addVertices(const tinygltf::Primitive& primitive, const glm::dmat4& world, const std::string& place) {
+    Result<void> addVertices(const tinygltf::Primitive& primitive, const glm::dmat4& world, const std::string& place) {
         const auto positions = gltf::elements(model_, primitive.attributes.at("POSITION"), "POSITION", name_);
-        if (!positions) return positions.error();
+        if (!positions) return tl::unexpected(positions.error());
         const auto uvs = gltf::elements(model_, primitive.attributes.at("TEXCOORD_0"), "TEXCOORD_0", name_);
-        if (!uvs) return uvs.error();
-        const auto optional = [&](const char* semantic) -> Outcome<gltf::Elements> {
+        if (!uvs) return tl::unexpected(uvs.error());
+        const auto optional = [&](const char* semantic) -> Result<gltf::Elements> {
             const auto found = primitive.attributes.find(semantic);
             if (found == primitive.attributes.end()) return gltf::Elements();
             return gltf::elements(model_, found->second, semantic, name_);
         };
         const auto normals = optional("NORMAL"), tangents = optional("TANGENT");
-        if (!normals) return normals.error();
-        if (!tangents) return tangents.error();
+        if (!normals) return tl::unexpected(normals.error());
+        if (!tangents) return tl::unexpected(tangents.error());
         const std::size_t count = positions->count();
         for (const gltf::Elements* other : {&*uvs, &*normals, &*tangents}) {
             if (other->count() == count || (other->count() == 0 && other != &*uvs)) continue;
@@ -227,16 +226,16 @@ private:
             cards_.vertices.push_back(v);
             bitangents_.push_back(bitangent);
         }
-        return std::nullopt;
+        return {};
     }
 
-    Fault addTriangles(const tinygltf::Primitive& primitive, std::uint32_t first, bool mirrored,
+    Result<void> addTriangles(const tinygltf::Primitive& primitive, std::uint32_t first, bool mirrored,
                        const std::string& place) {
         const auto vertices = static_cast<std::uint32_t>(cards_.vertices.size() - first);
         gltf::Elements list;
         if (primitive.indices >= 0) {
             const auto read = gltf::elements(model_, primitive.indices, "indices", name_);
-            if (!read) return read.error();
+            if (!read) return tl::unexpected(read.error());
             list = *read;
         }
         const bool indexed = primitive.indices >= 0;
@@ -269,12 +268,12 @@ private:
             const bool degenerate = corner[0] == corner[1] || corner[1] == corner[2] || corner[0] == corner[2];
             if (!degenerate) cards_.indices.insert(cards_.indices.end(), corner.begin(), corner.end());
         }
-        return std::nullopt;
+        return {};
     }
 
     /// The base colour image of the first material; the error names the image that cannot be had.
-    Fault readTexture() {
-        if (material_ < 0) return std::nullopt;
+    Result<void> readTexture() {
+        if (material_ < 0) return {};
         const auto missing = [&](const std::string& what) {
             return fault("G016", name_, what + " does not exist, but the cards' material names it", kExportAgain);
         };
@@ -283,7 +282,7 @@ private:
         }
         const tinygltf::Material& material = model_.materials[static_cast<std::size_t>(material_)];
         const int textureIndex = material.pbrMetallicRoughness.baseColorTexture.index;
-        if (textureIndex < 0) return std::nullopt;
+        if (textureIndex < 0) return {};
         if (static_cast<std::size_t>(textureIndex) >= model_.textures.size()) {
             return missing("texture " + std::to_string(textureIndex));
         }
@@ -295,20 +294,20 @@ private:
         std::span<const std::byte> encoded = std::as_bytes(std::span(image.image));
         if (image.bufferView >= 0) {
             const auto view = gltf::viewBytes(model_, image.bufferView, name_);
-            if (!view) return view.error();
+            if (!view) return tl::unexpected(view.error());
             encoded = *view;
         } else if (encoded.empty()) {
             return fault("G005", name_, "the image file \"" + image.uri + "\" that the glTF names cannot be read",
                          "keep the textures beside the .gltf, or export one .glb");
         }
         auto decoded = decodeImage(encoded, name_ + " image " + std::to_string(source), true);
-        if (!decoded) return decoded.error();
+        if (!decoded) return tl::unexpected(decoded.error());
         cards_.colorMap = std::move(*decoded);
-        return std::nullopt;
+        return {};
     }
 
     void finish() {
-        const auto note = [&](Severity severity, const char* code, const std::string& text, const char* hint) {
+        const auto note = [&](Severity severity, Code code, const std::string& text, const char* hint) {
             notes_.add(remark(severity, code, name_, text, hint));
         };
         cards::fillNormals(cards_);
@@ -354,19 +353,19 @@ std::string reading::folderOf(const std::string& path) {
     return slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
 }
 
-Outcome<Geometry> reading::readGltf(std::span<const std::byte> bytes, const std::string& name,
+Result<Geometry> reading::readGltf(std::span<const std::byte> bytes, const std::string& name,
                                     const std::string& folder, Diagnostics& notes) {
-    const Outcome<tinygltf::Model> model = gltf::readDocument(bytes, name, folder);
+    const Result<tinygltf::Model> model = gltf::readDocument(bytes, name, folder);
     if (!model) return tl::unexpected(model.error());
     return CardReader(*model, name, notes).read();
 }
 
-Outcome<Geometry> parseGltf(std::span<const std::byte> bytes, const std::string& name) {
+Result<Geometry> parseGltf(std::span<const std::byte> bytes, const std::string& name) {
     Diagnostics notes;
     return reading::readGltf(bytes, name, "", notes);
 }
 
-Outcome<Geometry> loadGltf(const std::string& path) {
+Result<Geometry> loadGltf(const std::string& path) {
     Diagnostics notes;
     return readFile(path).and_then([&](const std::vector<std::byte>& bytes) {
         return reading::readGltf(bytes, path, reading::folderOf(path), notes);

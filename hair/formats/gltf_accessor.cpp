@@ -113,12 +113,12 @@ std::uint32_t Elements::index(std::size_t i) const {
     }
 }
 
-Outcome<Elements> elements(const tinygltf::Model& model, int index, std::string_view semantic,
+Result<Elements> elements(const tinygltf::Model& model, int index, std::string_view semantic,
                            const std::string& name) {
     const std::string self = "accessor " + std::to_string(index) + " (" + std::string(semantic) + ") ";
     const char* const damaged = "the file is damaged: export it again";
     const auto outside = [&](const std::string& text) {
-        return tl::unexpected(fault("G008", name, self + text, damaged));
+        return fault("G008", name, self + text, damaged);
     };
     if (index < 0 || static_cast<std::size_t>(index) >= model.accessors.size()) {
         return outside("does not exist; the file has " + std::to_string(model.accessors.size()));
@@ -127,10 +127,10 @@ Outcome<Elements> elements(const tinygltf::Model& model, int index, std::string_
     const Expected expected = expectedOf(semantic);
     const int components = componentsOf(accessor.type);
     if (components != expected.components || !expected.suits(accessor.componentType)) {
-        return tl::unexpected(fault("G009", name,
+        return fault("G009", name,
                                     self + "has " + std::to_string(components) + " components of " +
                                         typeName(accessor.componentType) + ", expected " + expected.text,
-                                    "export the mesh again"));
+                                    "export the mesh again");
     }
     if (accessor.sparse.isSparse || accessor.bufferView < 0) {
         return tl::unexpected(

@@ -44,9 +44,9 @@ std::string samePath(const std::string& path, void*) {
 bool readWhole(std::vector<unsigned char>* out, std::string* error, const std::string& path, void* user) {
     auto& folder = *static_cast<Folder*>(user);
     if (!isInside(folder, path)) return false;
-    const Outcome<std::vector<std::byte>> bytes = readFile(path);
+    const Result<std::vector<std::byte>> bytes = readFile(path);
     if (!bytes) {
-        if (error != nullptr) *error = bytes.error().text;
+        if (error != nullptr) *error = bytes.error().first().text;
         if (folder.missing.empty()) folder.missing = path;
         return false;
     }
@@ -87,19 +87,19 @@ int depthOf(std::string_view json) {
     return deepest;
 }
 
-Outcome<std::string_view> jsonOfBinary(std::span<const std::byte> bytes, const std::string& name) {
+Result<std::string_view> jsonOfBinary(std::span<const std::byte> bytes, const std::string& name) {
     const std::string size = std::to_string(bytes.size());
     if (bytes.size() < 20) {
-        return tl::unexpected(fault("G002", name, "the file has " + size + " bytes, expected at least 20 of a .glb",
-                                    "the file is cut off: copy or export it again"));
+        return fault("G002", name, "the file has " + size + " bytes, expected at least 20 of a .glb",
+                                    "the file is cut off: copy or export it again");
     }
     const auto version = reading::valueAt<std::uint32_t>(bytes, 4);
     const auto length = reading::valueAt<std::uint32_t>(bytes, 8);
     const auto jsonLength = reading::valueAt<std::uint32_t>(bytes, 12);
     if (version != 2) {
-        return tl::unexpected(fault("G001", name,
+        return fault("G001", name,
                                     "the .glb header says version " + std::to_string(version) + ", expected 2",
-                                    "export it as glTF 2.0"));
+                                    "export it as glTF 2.0");
     }
     if (length > bytes.size()) {
         return tl::unexpected(
@@ -107,66 +107,66 @@ Outcome<std::string_view> jsonOfBinary(std::span<const std::byte> bytes, const s
                   "the file is cut off: copy or export it again"));
     }
     if (reading::valueAt<std::uint32_t>(bytes, 16) != kJsonChunk || !reading::fits(20, jsonLength, 1, length)) {
-        return tl::unexpected(fault("G002", name,
+        return fault("G002", name,
                                     "the first chunk promises " + std::to_string(jsonLength) +
                                         " bytes of JSON, expected a JSON chunk that ends within " +
                                         std::to_string(length) + " bytes",
-                                    "the file is damaged: export it again"));
+                                    "the file is damaged: export it again");
     }
     const std::size_t next = std::size_t{20} + jsonLength;
     if (reading::fits(next, 8, 1, length)) {
         const auto binLength = reading::valueAt<std::uint32_t>(bytes, next);
         const bool isBin = reading::valueAt<std::uint32_t>(bytes, next + 4) == kBinChunk;
         if (isBin && !reading::fits(next + 8, binLength, 1, length)) {
-            return tl::unexpected(fault("G002", name,
+            return fault("G002", name,
                                         "the binary chunk promises " + std::to_string(binLength) + " bytes, but only " +
                                             std::to_string(length - next - 8) + " follow",
-                                        "the file is cut off or damaged: export it again"));
+                                        "the file is cut off or damaged: export it again");
         }
     }
     return std::string_view(reinterpret_cast<const char*>(bytes.data()) + 20, jsonLength);
 }
 
 /// Extensions that change how positions or texture coordinates are stored; without them nothing can be read.
-Outcome<tinygltf::Model> checkExtensions(tinygltf::Model model, const std::string& name) {
+Result<tinygltf::Model> checkExtensions(tinygltf::Model model, const std::string& name) {
     for (const std::string& extension : model.extensionsRequired) {
         const bool harmless = extension.starts_with("KHR_materials_") || extension == "KHR_lights_punctual" ||
                               extension == "KHR_mesh_quantization" || extension == "KHR_xmp_json_ld";
         if (harmless) continue;
-        return tl::unexpected(fault("G017", name, "the file requires the extension \"" + extension + "\"",
-                                    "export it uncompressed and without that extension"));
+        return fault("G017", name, "the file requires the extension \"" + extension + "\"",
+                                    "export it uncompressed and without that extension");
     }
     return model;
 }
 
 }  // namespace
 
-Outcome<tinygltf::Model> readDocument(std::span<const std::byte> bytes, const std::string& name,
+Result<tinygltf::Model> readDocument(std::span<const std::byte> bytes, const std::string& name,
                                       const std::string& folder) {
     const bool binary = bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
     std::string_view json(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-    if (bytes.empty()) return tl::unexpected(fault("G001", name, "there are no bytes", "name a .glb or .gltf file"));
+    if (bytes.empty()) return fault("G001", name, "there are no bytes", "name a .glb or .gltf file");
     if (binary) {
-        const Outcome<std::string_view> chunk = jsonOfBinary(bytes, name);
+        const Result<std::string_view> chunk = jsonOfBinary(bytes, name);
         if (!chunk) return tl::unexpected(chunk.error());
         json = *chunk;
     } else {
         const std::size_t start = json.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
         if (start == std::string_view::npos || json[start] != '{') {
-            return tl::unexpected(fault("G001", name,
+            return fault("G001", name,
                                         "the file starts with \"" + reading::oneLine(json.substr(0, 4)) +
                                             "\", expected \"glTF\" (binary) or \"{\" (text)",
-                                        "this is no glTF file"));
+                                        "this is no glTF file");
         }
     }
     if (bytes.size() > std::numeric_limits<std::uint32_t>::max()) {
-        return tl::unexpected(fault("G002", name, "the file is larger than 4 GiB", "split the asset"));
+        return fault("G002", name, "the file is larger than 4 GiB", "split the asset");
     }
     if (const int depth = depthOf(json); depth > kMaxDepth) {
-        return tl::unexpected(fault(
+        return fault(
             "G003", name,
             "the JSON is nested " + std::to_string(depth) + " deep, expected at most " + std::to_string(kMaxDepth),
-            "remove deeply nested extras"));
+            "remove deeply nested extras");
     }
 
     Folder outside{folder, ""};
@@ -191,20 +191,20 @@ Outcome<tinygltf::Model> readDocument(std::span<const std::byte> bytes, const st
     if (!good && !outside.missing.empty()) {
         const std::string where =
             folder.empty() ? "this reader was given bytes without a folder" : "looked for " + outside.missing;
-        return tl::unexpected(fault("G005", name, "a buffer file that the glTF names cannot be read; " + where,
-                                    "keep the .bin beside the .gltf, or export one .glb"));
+        return fault("G005", name, "a buffer file that the glTF names cannot be read; " + where,
+                                    "keep the .bin beside the .gltf, or export one .glb");
     }
     if (!good) {
-        return tl::unexpected(fault("G004", name, "the glTF document is not valid: " + error,
-                                    "check it with the Khronos glTF validator, or export it again"));
+        return fault("G004", name, "the glTF document is not valid: " + error,
+                                    "check it with the Khronos glTF validator, or export it again");
     }
     return checkExtensions(std::move(model), name);
 }
 
-Outcome<std::span<const std::byte>> viewBytes(const tinygltf::Model& model, int view, const std::string& name) {
+Result<std::span<const std::byte>> viewBytes(const tinygltf::Model& model, int view, const std::string& name) {
     const auto wrong = [&](const std::string& text) {
-        return tl::unexpected(fault("G008", name, "buffer view " + std::to_string(view) + " " + text,
-                                    "the file is damaged: export it again"));
+        return fault("G008", name, "buffer view " + std::to_string(view) + " " + text,
+                                    "the file is damaged: export it again");
     };
     if (view < 0 || static_cast<std::size_t>(view) >= model.bufferViews.size()) {
         return wrong("does not exist; the file has " + std::to_string(model.bufferViews.size()));

@@ -59,16 +59,16 @@ void GroomBuilder::add(std::span<const glm::vec3> points, std::span<const float>
     groom_.firstPoint.push_back(static_cast<std::uint32_t>(groom_.points.size()));
 }
 
-Outcome<Groom> GroomBuilder::finish(Diagnostics& notes) {
+Result<Groom> GroomBuilder::finish(Diagnostics& notes) {
     const std::string& file = groom_.name;
     const std::string all = " of " + std::to_string(seen_) + " strands";
     if (groom_.strandCount() == 0) {
-        return tl::unexpected(fault(code("006"), file,
+        return fault(code("006"), file,
                                     "no strand can be used: " + std::to_string(notFinite_) +
                                         " with points that are not finite, " + std::to_string(tooShort_) +
                                         " with fewer than 2 points, " + std::to_string(noLength_) +
                                         " without length, out of " + std::to_string(seen_) + "; expected at least 1",
-                                    "export the groom again"));
+                                    "export the groom again");
     }
     const auto warn = [&](const char* number, std::uint64_t count, const std::string& text, const char* hint) {
         if (count == 0) return;

@@ -2,6 +2,7 @@
 // Collects strands from a file, keeps only those that can be drawn, and counts what it leaves out.
 #pragma once
 
+#include <pelage/base/diagnostic.hpp>
 #include <pelage/hair/geometry.hpp>
 
 #include <span>
@@ -18,10 +19,10 @@ public:
     /// `widths` is empty or has one entry per point.
     void add(std::span<const glm::vec3> points, std::span<const float> widths);
     /// The groom, or the error (family)006 when no strand is left; warnings about dropped strands go to `notes`.
-    Outcome<Groom> finish(Diagnostics& notes);
+    Result<Groom> finish(Diagnostics& notes);
 
 private:
-    std::string code(const char* number) const { return family_ + std::string(number); }
+    Code code(std::string_view number) const { return Code::find(family_ + std::string(number)).value_or(Code()); }
 
     Groom groom_;
     char family_;

@@ -37,17 +37,17 @@ void layOut(Header& h) {
     h.end = at;
 }
 
-Outcome<Header> readHeader(std::span<const std::byte> bytes, const std::string& name) {
+Result<Header> readHeader(std::span<const std::byte> bytes, const std::string& name) {
     if (bytes.size() < kHeaderBytes) {
-        return tl::unexpected(fault(
+        return fault(
             "H001", name,
             "the file has " + std::to_string(bytes.size()) + " bytes, expected at least the 128 bytes of a HAIR header",
-            "the file is cut off or is no .hair file"));
+            "the file is cut off or is no .hair file");
     }
     if (std::memcmp(bytes.data(), "HAIR", 4) != 0) {
         const std::string found(reinterpret_cast<const char*>(bytes.data()), 4);
-        return tl::unexpected(fault("H002", name, "the file starts with \"" + found + "\", expected \"HAIR\"",
-                                    "this is no .hair file of Cem Yuksel's format"));
+        return fault("H002", name, "the file starts with \"" + found + "\", expected \"HAIR\"",
+                                    "this is no .hair file of Cem Yuksel's format");
     }
     Header h;
     h.strands = reading::valueAt<std::uint32_t>(bytes, 4);
@@ -56,25 +56,25 @@ Outcome<Header> readHeader(std::span<const std::byte> bytes, const std::string& 
     h.defaultSegments = reading::valueAt<std::uint32_t>(bytes, 16);
     h.defaultThickness = reading::valueAt<float>(bytes, 20);
     if (!(h.flags & Points) || h.strands == 0 || h.points == 0) {
-        return tl::unexpected(fault("H003", name,
+        return fault("H003", name,
                                     "the header counts " + std::to_string(h.strands) + " strands and " +
                                         std::to_string(h.points) + " points with flags " + std::to_string(h.flags) +
                                         ", expected at least 1 strand and the points flag (2)",
-                                    "export the groom again, with points"));
+                                    "export the groom again, with points");
     }
     layOut(h);
     if (h.end > bytes.size()) {
-        return tl::unexpected(fault("H004", name,
+        return fault("H004", name,
                                     "the header promises " + std::to_string(h.strands) + " strands with " +
                                         std::to_string(h.points) + " points (" + std::to_string(h.end) +
                                         " bytes), but the file has " + std::to_string(bytes.size()) + " bytes",
-                                    "the file is cut off or its header is damaged: copy or export it again"));
+                                    "the file is cut off or its header is damaged: copy or export it again");
     }
     if (h.points > reading::kMaxVertices || h.strands > reading::kMaxVertices) {
-        return tl::unexpected(fault("H007", name,
+        return fault("H007", name,
                                     "the groom has " + std::to_string(h.points) + " points, more than the limit of " +
                                         std::to_string(reading::kMaxVertices),
-                                    "export fewer strands"));
+                                    "export fewer strands");
     }
     return h;
 }
@@ -85,16 +85,16 @@ std::uint32_t pointsOf(std::span<const std::byte> bytes, const Header& h, std::s
 }
 
 /// The segments must use every point exactly once; anything else would shift all strands that follow.
-Outcome<std::monostate> checkSegments(std::span<const std::byte> bytes, const std::string& name, const Header& h) {
+Result<void> checkSegments(std::span<const std::byte> bytes, const std::string& name, const Header& h) {
     std::uint64_t sum = 0;
     for (std::size_t s = 0; s < h.strands; ++s) sum += pointsOf(bytes, h, s);
     if (sum != h.points) {
-        return tl::unexpected(fault("H005", name,
+        return fault("H005", name,
                                     "the strands' segments add up to " + std::to_string(sum) +
                                         " points, expected the " + std::to_string(h.points) + " of the header",
-                                    "the file is damaged: export the groom again"));
+                                    "the file is damaged: export the groom again");
     }
-    return std::monostate{};
+    return {};
 }
 
 template <class T>
@@ -104,8 +104,8 @@ void put(std::vector<std::byte>& out, std::size_t offset, const T& value) {
 
 }  // namespace
 
-Outcome<Groom> reading::readHair(std::span<const std::byte> bytes, const std::string& name, Diagnostics& notes) {
-    const Outcome<Header> header = readHeader(bytes, name);
+Result<Groom> reading::readHair(std::span<const std::byte> bytes, const std::string& name, Diagnostics& notes) {
+    const Result<Header> header = readHeader(bytes, name);
     if (!header) return tl::unexpected(header.error());
     const Header& h = *header;
     if (const auto checked = checkSegments(bytes, name, h); !checked) return tl::unexpected(checked.error());
@@ -131,12 +131,12 @@ Outcome<Groom> reading::readHair(std::span<const std::byte> bytes, const std::st
     return builder.finish(notes);
 }
 
-Outcome<Groom> parseHair(std::span<const std::byte> bytes, const std::string& name) {
+Result<Groom> parseHair(std::span<const std::byte> bytes, const std::string& name) {
     Diagnostics notes;
     return reading::readHair(bytes, name, notes);
 }
 
-Outcome<Groom> loadHair(const std::string& path) {
+Result<Groom> loadHair(const std::string& path) {
     return readFile(path).and_then([&](const std::vector<std::byte>& bytes) { return parseHair(bytes, path); });
 }
 

@@ -26,7 +26,7 @@ std::string oneLine(std::string_view text, std::size_t limit) {
     return line;
 }
 
-Diagnostic remark(Severity severity, std::string_view code, std::string_view file, std::string_view text,
+Diagnostic remark(Severity severity, Code code, std::string_view file, std::string_view text,
                   std::string_view hint) {
     Diagnostic d;
     d.severity = severity;
@@ -37,13 +37,13 @@ Diagnostic remark(Severity severity, std::string_view code, std::string_view fil
     return d;
 }
 
-Diagnostic fault(std::string_view code, std::string_view file, std::string_view text, std::string_view hint) {
-    return remark(Severity::Error, code, file, text, hint);
+tl::unexpected<Diagnostics> fault(Code code, std::string_view file, std::string_view text, std::string_view hint) {
+    return tl::unexpected<Diagnostics>(remark(Severity::Error, code, file, text, hint));
 }
 
 }  // namespace reading
 
-Outcome<std::vector<std::byte>> readFile(const std::string& path, std::size_t limit) {
+Result<std::vector<std::byte>> readFile(const std::string& path, std::size_t limit) {
     using reading::fault;
     std::error_code error;
     if (!std::filesystem::exists(path, error)) {
@@ -51,12 +51,12 @@ Outcome<std::vector<std::byte>> readFile(const std::string& path, std::size_t li
             fault("F001", path, "there is no such file", "check the spelling and the folder the program runs in"));
     }
     if (std::filesystem::is_directory(path, error)) {
-        return tl::unexpected(fault("F001", path, "this is a folder, expected a file", "name a file inside it"));
+        return fault("F001", path, "this is a folder, expected a file", "name a file inside it");
     }
     std::ifstream stream(path, std::ios::binary);
     if (!stream) {
         const std::string why = std::error_code(errno, std::generic_category()).message();
-        return tl::unexpected(fault("F001", path, "the file cannot be opened: " + why, "check its permissions"));
+        return fault("F001", path, "the file cannot be opened: " + why, "check its permissions");
     }
     // Read in blocks instead of trusting a size asked for beforehand: pipes have none and files may grow.
     std::vector<std::byte> bytes;
@@ -67,14 +67,14 @@ Outcome<std::vector<std::byte>> readFile(const std::string& path, std::size_t li
         stream.read(reinterpret_cast<char*>(bytes.data() + used), static_cast<std::streamsize>(kBlock));
         bytes.resize(used + static_cast<std::size_t>(stream.gcount()));
         if (bytes.size() > limit) {
-            return tl::unexpected(fault("F002", path,
+            return fault("F002", path,
                                         "the file is larger than the limit of " + std::to_string(limit) + " bytes",
-                                        "split the asset, or remove what hair does not need from it"));
+                                        "split the asset, or remove what hair does not need from it");
         }
     }
-    if (stream.bad()) return tl::unexpected(fault("F001", path, "reading the file failed half way", "try again"));
+    if (stream.bad()) return fault("F001", path, "reading the file failed half way", "try again");
     if (bytes.empty()) {
-        return tl::unexpected(fault("F003", path, "the file is empty (0 bytes)", "export or download it again"));
+        return fault("F003", path, "the file is empty (0 bytes)", "export or download it again");
     }
     return bytes;
 }

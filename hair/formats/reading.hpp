@@ -24,8 +24,8 @@ constexpr float kMaxCoordinate = 1e9F;                           // file units; 
 /// `text` with every control character as a space, runs of spaces as one, and at most `limit` bytes.
 std::string oneLine(std::string_view text, std::size_t limit = 300);
 
-Diagnostic fault(std::string_view code, std::string_view file, std::string_view text, std::string_view hint);
-Diagnostic remark(Severity severity, std::string_view code, std::string_view file, std::string_view text,
+tl::unexpected<Diagnostics> fault(Code code, std::string_view file, std::string_view text, std::string_view hint);
+Diagnostic remark(Severity severity, Code code, std::string_view file, std::string_view text,
                   std::string_view hint);
 
 /// The value at `offset`; the caller has checked that it lies inside.

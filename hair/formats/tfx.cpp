@@ -21,7 +21,7 @@ struct Header {
     std::uint32_t strands = 0, pointsPerStrand = 0, positions = 0;
 };
 
-Diagnostic promisesMore(const std::string& name, const Header& h, std::size_t size) {
+tl::unexpected<Diagnostics> promisesMore(const std::string& name, const Header& h, std::size_t size) {
     return fault("T004", name,
                  "the header promises " + std::to_string(h.strands) + " strands of " +
                      std::to_string(h.pointsPerStrand) + " points (" +
@@ -30,12 +30,12 @@ Diagnostic promisesMore(const std::string& name, const Header& h, std::size_t si
                  "the file is cut off or its header is damaged: copy or export it again");
 }
 
-Outcome<Header> readHeader(std::span<const std::byte> bytes, const std::string& name) {
+Result<Header> readHeader(std::span<const std::byte> bytes, const std::string& name) {
     if (bytes.size() < kHeaderBytes) {
-        return tl::unexpected(fault("T001", name,
+        return fault("T001", name,
                                     "the file has " + std::to_string(bytes.size()) +
                                         " bytes, expected at least the 160 bytes of a TressFX header",
-                                    "the file is cut off or is no .tfx file"));
+                                    "the file is cut off or is no .tfx file");
     }
     Header h;
     h.version = reading::valueAt<float>(bytes, 0);
@@ -43,41 +43,41 @@ Outcome<Header> readHeader(std::span<const std::byte> bytes, const std::string& 
     h.pointsPerStrand = reading::valueAt<std::uint32_t>(bytes, 8);
     h.positions = reading::valueAt<std::uint32_t>(bytes, 12);
     if (!(h.version >= 4.0F && h.version < 5.0F)) {
-        return tl::unexpected(fault("T002", name,
+        return fault("T002", name,
                                     "the file starts with the version " + std::to_string(h.version) +
                                         ", expected 4.0 (the number a TressFX 4 groom begins with)",
-                                    "export it as a TressFX 4 .tfx file"));
+                                    "export it as a TressFX 4 .tfx file");
     }
     if (h.strands == 0 || h.pointsPerStrand < 2) {
-        return tl::unexpected(fault("T003", name,
+        return fault("T003", name,
                                     "the header counts " + std::to_string(h.strands) + " strands of " +
                                         std::to_string(h.pointsPerStrand) +
                                         " points, expected at least 1 strand of at least 2 points",
-                                    "export the groom again"));
+                                    "export the groom again");
     }
     if (h.positions < kHeaderBytes) {
-        return tl::unexpected(fault(
+        return fault(
             "T005", name,
             "positions start at byte " + std::to_string(h.positions) + ", inside the header; expected 160 or more",
-            "the header is damaged: export the groom again"));
+            "the header is damaged: export the groom again");
     }
     const std::uint64_t points = std::uint64_t{h.strands} * h.pointsPerStrand;
     if (!reading::fits(h.positions, points, kPointBytes, bytes.size())) {
         return tl::unexpected(promisesMore(name, h, bytes.size()));
     }
     if (points > reading::kMaxVertices) {
-        return tl::unexpected(fault("T007", name,
+        return fault("T007", name,
                                     "the groom has " + std::to_string(points) + " points, more than the limit of " +
                                         std::to_string(reading::kMaxVertices),
-                                    "export fewer strands; followers can be generated from guides"));
+                                    "export fewer strands; followers can be generated from guides");
     }
     return h;
 }
 
 }  // namespace
 
-Outcome<Groom> reading::readTfx(std::span<const std::byte> bytes, const std::string& name, Diagnostics& notes) {
-    const Outcome<Header> header = readHeader(bytes, name);
+Result<Groom> reading::readTfx(std::span<const std::byte> bytes, const std::string& name, Diagnostics& notes) {
+    const Result<Header> header = readHeader(bytes, name);
     if (!header) return tl::unexpected(header.error());
     const std::size_t perStrand = header->pointsPerStrand;
     GroomBuilder builder(name, 'T');
@@ -95,12 +95,12 @@ Outcome<Groom> reading::readTfx(std::span<const std::byte> bytes, const std::str
     return builder.finish(notes);
 }
 
-Outcome<Groom> parseTfx(std::span<const std::byte> bytes, const std::string& name) {
+Result<Groom> parseTfx(std::span<const std::byte> bytes, const std::string& name) {
     Diagnostics notes;
     return reading::readTfx(bytes, name, notes);
 }
 
-Outcome<Groom> loadTfx(const std::string& path) {
+Result<Groom> loadTfx(const std::string& path) {
     return readFile(path).and_then([&](const std::vector<std::byte>& bytes) { return parseTfx(bytes, path); });
 }
 

@@ -15,23 +15,18 @@
 namespace pelage::hair {
 namespace {
 
-template <class T>
-tl::unexpected<Diagnostic> failed(const rhi::Result<T>& result) {
-    return tl::unexpected(toDiagnostic(result.error()));
-}
-
-Outcome<rhi::Buffer> makeBuffer(const rhi::Device& device, const std::string& label, rhi::BufferUsage usage,
+Result<rhi::Buffer> makeBuffer(const rhi::Device& device, const std::string& label, rhi::BufferUsage usage,
                                 std::span<const std::byte> bytes) {
     auto buffer =
         device.createBuffer({.label = label, .size = bytes.size(), .usage = usage | rhi::BufferUsage::CopyDst});
-    if (!buffer) return failed(buffer);
-    if (auto written = device.queue().writeBuffer(*buffer, 0, bytes); !written) return failed(written);
+    if (!buffer) return tl::unexpected(buffer.error());
+    if (auto written = device.queue().writeBuffer(*buffer, 0, bytes); !written) return tl::unexpected(written.error());
     return *buffer;
 }
 
 }  // namespace
 
-Outcome<const GpuGeometry*> Uploads::geometry(const std::shared_ptr<const Geometry>& source) {
+Result<const GpuGeometry*> Uploads::geometry(const std::shared_ptr<const Geometry>& source) {
     if (const auto found = geometry_.find(source.get()); found != geometry_.end()) return &found->second;
     GpuGeometry result = {.source = source};
     auto vertices = makeBuffer(device_, source->name + " vertices", rhi::BufferUsage::Vertex,
@@ -58,7 +53,7 @@ Outcome<const GpuGeometry*> Uploads::geometry(const std::shared_ptr<const Geomet
     return &geometry_.emplace(source.get(), std::move(result)).first->second;
 }
 
-Outcome<rhi::TextureView> Uploads::texture(const std::string& reference, bool srgb) {
+Result<rhi::TextureView> Uploads::texture(const std::string& reference, bool srgb) {
     const std::string key = reference + (srgb ? "|srgb" : "|linear");
     if (const auto found = textures_.find(key); found != textures_.end()) return found->second;
     if (reference.starts_with("moments:")) {
@@ -90,7 +85,7 @@ Outcome<rhi::TextureView> Uploads::texture(const std::string& reference, bool sr
     return view;
 }
 
-Outcome<rhi::TextureView> Uploads::uploadMoments(const std::string& name) {
+Result<rhi::TextureView> Uploads::uploadMoments(const std::string& name) {
     // A model without tables binds one black texel.
     std::optional<MomentTable> table = momentTableOf(name);
     const std::uint32_t width = table ? table->width() : 1, height = table ? table->height() : 1;
@@ -100,17 +95,17 @@ Outcome<rhi::TextureView> Uploads::uploadMoments(const std::string& name) {
                                           .size = {width, height, MomentTable::layers},
                                           .format = rhi::TextureFormat::RGBA16Float,
                                           .usage = rhi::TextureUsage::TextureBinding | rhi::TextureUsage::CopyDst});
-    if (!texture) return failed(texture);
+    if (!texture) return tl::unexpected(texture.error());
     auto written = device_.queue().writeTexture({.texture = *texture}, std::as_bytes(std::span(texels)),
                                                 {.bytesPerRow = width * 8, .rowsPerImage = height},
                                                 {width, height, MomentTable::layers});
-    if (!written) return failed(written);
+    if (!written) return tl::unexpected(written.error());
     auto view = texture->createView({.dimension = rhi::TextureViewDimension::E2DArray});
-    if (!view) return failed(view);
+    if (!view) return tl::unexpected(view.error());
     return *view;
 }
 
-Outcome<rhi::TextureView> Uploads::upload(const Image8& image, const std::string& label) {
+Result<rhi::TextureView> Uploads::upload(const Image8& image, const std::string& label) {
     const std::vector<Image8> levels = mipChain(image);
     const bool one = levels.front().channels == 1;
     auto texture = device_.createTexture({.label = label,
@@ -120,20 +115,20 @@ Outcome<rhi::TextureView> Uploads::upload(const Image8& image, const std::string
                                                     : image.srgb ? rhi::TextureFormat::RGBA8UnormSrgb
                                                                  : rhi::TextureFormat::RGBA8Unorm,
                                           .usage = rhi::TextureUsage::TextureBinding | rhi::TextureUsage::CopyDst});
-    if (!texture) return failed(texture);
+    if (!texture) return tl::unexpected(texture.error());
     for (std::uint32_t level = 0; level < levels.size(); ++level) {
         const Image8& mip = levels[level];
         auto written = device_.queue().writeTexture(
             {.texture = *texture, .mipLevel = level}, std::as_bytes(std::span(mip.texels)),
             {.bytesPerRow = mip.width * mip.channels, .rowsPerImage = mip.height}, {mip.width, mip.height, 1});
-        if (!written) return failed(written);
+        if (!written) return tl::unexpected(written.error());
     }
     auto view = texture->createView();
-    if (!view) return failed(view);
+    if (!view) return tl::unexpected(view.error());
     return *view;
 }
 
-Outcome<rhi::Texture> Uploads::irradiance(const Environment& environment) {
+Result<rhi::Texture> Uploads::irradiance(const Environment& environment) {
     if (irradiance_ && environment.radiance == irradianceOf_.radiance &&
         environment.intensity == irradianceOf_.intensity) {
         return irradiance_;
@@ -145,7 +140,7 @@ Outcome<rhi::Texture> Uploads::irradiance(const Environment& environment) {
                                               .format = rhi::TextureFormat::RGBA16Float,
                                               .usage = rhi::TextureUsage::TextureBinding | rhi::TextureUsage::CopyDst,
                                               .cubeCompatible = true});
-        if (!texture) return failed(texture);
+        if (!texture) return tl::unexpected(texture.error());
         irradiance_ = *texture;
     }
     // Faces +X -X +Y -Y +Z -Z; directions by the Vulkan specification's table of cube map faces.
@@ -167,7 +162,7 @@ Outcome<rhi::Texture> Uploads::irradiance(const Environment& environment) {
     }
     auto written = device_.queue().writeTexture({.texture = irradiance_}, std::as_bytes(std::span(texels)),
                                                 {.bytesPerRow = size * 8, .rowsPerImage = size}, {size, size, 6});
-    if (!written) return failed(written);
+    if (!written) return tl::unexpected(written.error());
     irradianceOf_ = environment;
     return irradiance_;
 }

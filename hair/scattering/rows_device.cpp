@@ -42,26 +42,22 @@ GpuRow pack(const ScatterRow& row, MomentTable* table) {
     return r;
 }
 
-tl::unexpected<Diagnostic> failed(const rhi::Error& error) {
-    return tl::unexpected(toDiagnostic(error));
-}
-
 // Rows in one dispatch: 6.5 MB.
 constexpr std::size_t chunk = 16384;
 
 }  // namespace
 
-Outcome<std::vector<ScatteredLobes>> ScatterCompute::evaluate(ScatteringModel model, bool published,
+Result<std::vector<ScatteredLobes>> ScatterCompute::evaluate(ScatteringModel model, bool published,
                                                               std::span<const ScatterRow> rows) {
     const auto code = detail::embeddedShader("scatter_rows.comp");
     auto module = device_.createShaderModule({.label = "scatter_rows", .code = {code.begin(), code.end()}});
-    if (!module) return failed(module.error());
+    if (!module) return tl::unexpected(module.error());
     auto pipeline = device_.createComputePipeline(
         {.label = "scatter_rows",
          .compute = {.module = *module,
                      .constants = {{.name = "scatteringModel", .value = static_cast<double>(model)},
                                    {.name = "asPublished", .value = published ? 1.0 : 0.0}}}});
-    if (!pipeline) return failed(pipeline.error());
+    if (!pipeline) return tl::unexpected(pipeline.error());
     const bool usesTable = scatteringModels()[static_cast<std::size_t>(model)].usesTable;
     std::map<std::pair<double, double>, MomentTable> tables;
 
@@ -86,22 +82,22 @@ Outcome<std::vector<ScatteredLobes>> ScatterCompute::evaluate(ScatteringModel mo
         const std::uint64_t inBytes = count * sizeof(GpuRow), outBytes = count * sizeof(GpuResult);
         auto source = device_.createBuffer(
             {.label = "scatter rows", .size = inBytes, .usage = BufferUsage::Storage | BufferUsage::CopyDst});
-        if (!source) return failed(source.error());
+        if (!source) return tl::unexpected(source.error());
         auto target = device_.createBuffer(
             {.label = "scatter results", .size = outBytes, .usage = BufferUsage::Storage | BufferUsage::CopySrc});
-        if (!target) return failed(target.error());
+        if (!target) return tl::unexpected(target.error());
         auto back = device_.createBuffer(
             {.label = "scatter read back", .size = outBytes, .usage = BufferUsage::MapRead | BufferUsage::CopyDst});
-        if (!back) return failed(back.error());
+        if (!back) return tl::unexpected(back.error());
         if (auto done = device_.queue().writeBuffer(*source, 0, std::as_bytes(std::span(sent))); !done) {
-            return failed(done.error());
+            return tl::unexpected(done.error());
         }
         auto group =
             device_.createBindGroup({.label = "scatter rows",
                                      .layout = pipeline->bindGroupLayout(0),
                                      .entries = {{.binding = 0, .resource = rhi::BufferBinding{.buffer = *source}},
                                                  {.binding = 1, .resource = rhi::BufferBinding{.buffer = *target}}}});
-        if (!group) return failed(group.error());
+        if (!group) return tl::unexpected(group.error());
         auto encoder = device_.createCommandEncoder("scatter rows");
         auto pass = encoder.beginComputePass({.label = "scatter rows"});
         pass.setPipeline(*pipeline);
@@ -110,10 +106,10 @@ Outcome<std::vector<ScatteredLobes>> ScatterCompute::evaluate(ScatteringModel mo
         pass.end();
         encoder.copyBufferToBuffer(*target, 0, *back, 0, outBytes);
         auto commands = encoder.finish();
-        if (!commands) return failed(commands.error());
+        if (!commands) return tl::unexpected(commands.error());
         auto submission = device_.queue().submit(*commands);
-        if (!submission) return failed(submission.error());
-        if (auto done = device_.queue().wait(*submission); !done) return failed(done.error());
+        if (!submission) return tl::unexpected(submission.error());
+        if (auto done = device_.queue().wait(*submission); !done) return tl::unexpected(done.error());
         std::vector<GpuResult> results(count);
         std::memcpy(results.data(), back->mapped().data(), outBytes);
         for (const GpuResult& result : results) {

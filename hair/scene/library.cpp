@@ -44,7 +44,7 @@ std::string joined(const std::vector<std::string>& words) {
 }
 
 /// "there is no material "brwon"", with the nearest of the names that there are.
-Diagnostics unknownName(const char* code, const char* what, const std::string& name, const fs::path& directory,
+Diagnostics unknownName(Code code, const char* what, const std::string& name, const fs::path& directory,
                         const std::vector<std::string>& known) {
     std::string hint;
     if (known.empty()) {
@@ -55,9 +55,8 @@ Diagnostics unknownName(const char* code, const char* what, const std::string& n
     } else {
         hint = "known are " + joined(known) + "; or give a path that ends in .json";
     }
-    Diagnostics all;
-    all.add({.code = code, .text = std::string("there is no ") + what + " \"" + name + "\"", .hint = std::move(hint)});
-    return all;
+    return Diagnostic{
+        .code = code, .text = std::string("there is no ") + what + " \"" + name + "\"", .hint = std::move(hint)};
 }
 
 }  // namespace
@@ -67,7 +66,7 @@ Library::Library(std::string dataDirectory) : Library(std::move(dataDirectory), 
 Library::Library(std::string dataDirectory, materials::FunctorRegistry functors)
     : directory_(std::move(dataDirectory)), functors_(std::move(functors)) {}
 
-Checked<std::shared_ptr<const materials::MaterialType>> Library::materialType(const std::string& name) {
+Result<std::shared_ptr<const materials::MaterialType>> Library::materialType(const std::string& name) {
     const fs::path directory = fs::path(directory_) / "types";
     fs::path path = name;
     if (!isFile(path)) {
@@ -84,7 +83,7 @@ Checked<std::shared_ptr<const materials::MaterialType>> Library::materialType(co
     return type;
 }
 
-Checked<materials::Material::Parsed> Library::material(const std::string& nameOrPath) {
+Result<materials::Material::Parsed> Library::material(const std::string& nameOrPath) {
     fs::path path = nameOrPath;
     if (!looksLikePath(nameOrPath)) {
         const fs::path presets = fs::path(directory_) / "presets";
@@ -121,7 +120,7 @@ materials::Material::ParentSource Library::parentSource() const {
         };
 }
 
-Checked<std::shared_ptr<const passes::PassTree>> Library::passTree(const std::string& nameOrPath) {
+Result<std::shared_ptr<const passes::PassTree>> Library::passTree(const std::string& nameOrPath) {
     const fs::path templates = fs::path(directory_) / "frames";
     // What a tree includes and does not have beside it is one of the shipped frames.
     const auto shipped = [&](const std::string& name) { return (templates / name).string(); };

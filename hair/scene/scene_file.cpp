@@ -93,7 +93,7 @@ public:
         directory_ = fs::path(document.file).parent_path();
     }
 
-    Checked<SceneFile> read() {
+    Result<SceneFile> read() {
         const json::Value& root = document_.root;
         result_.passTree = pathOrName(wordOr(root, "passTree", result_.passTree));
         for (const json::Value& object : root.find("objects")->elements) readObject(object);
@@ -117,7 +117,7 @@ public:
     }
 
 private:
-    void fault(const char* code, const json::Place& place, std::string text, std::string hint) {
+    void fault(Code code, const json::Place& place, std::string text, std::string hint) {
         faults_.add({.code = code,
                      .file = document_.file,
                      .line = place.line,
@@ -190,7 +190,7 @@ private:
         if (generate) return geometries_[key] = parts::generate(request(*generate), subdivisions);
         auto loaded = parts::loadGeometry(relative(asset->string), subdivisions, result_.notes);
         if (!loaded) {
-            faults_.add(placed(loaded.error(), asset->place));
+            adopt(loaded.error(), asset->place);
             return nullptr;
         }
         return geometries_[key] = *loaded;
@@ -212,16 +212,10 @@ private:
 
     void readOverrides(const json::Value& set, materials::Material& material) {
         for (const json::Member& member : set.members) {
-            const auto text = asText(member.value);
-            if (!text) {
-                fault("S002", member.value.place, "\"" + member.key + "\" is an array of other things than numbers",
-                      "colours and vectors are arrays of numbers");
-                continue;
+            for (Diagnostic each : material.set(member.key, member.value).items()) {
+                const bool isError = each.severity == Severity::Error;
+                (isError ? faults_ : result_.notes).add(placed(std::move(each), member.value.place));
             }
-            auto diagnostic = material.setFromText(member.key, *text);
-            if (!diagnostic) continue;
-            const bool isError = diagnostic->severity == Severity::Error;
-            (isError ? faults_ : result_.notes).add(placed(std::move(*diagnostic), member.place));
         }
     }
 
@@ -319,7 +313,7 @@ private:
             if (read) {
                 result_.frame.settings[member.key] = *read;
             } else {
-                faults_.add(placed(read.error(), member.place));
+                adopt(read.error(), member.place);
             }
         }
     }
@@ -332,20 +326,16 @@ private:
     Diagnostics faults_;
 };
 
-Checked<json::Schema> readSchema(const Library& library) {
+Result<json::Schema> readSchema(const Library& library) {
     const std::string path = (fs::path(library.dataDirectory()) / "schemas" / "scene.schema.json").string();
     const auto bytes = readFile(path);
-    if (!bytes) {
-        Diagnostics all;
-        all.add(bytes.error());
-        return tl::unexpected(std::move(all));
-    }
+    if (!bytes) return tl::unexpected(bytes.error());
     return json::Schema::parse({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, path);
 }
 
 }  // namespace
 
-Checked<SceneFile> loadScene(const std::string& path, Library& library) {
+Result<SceneFile> loadScene(const std::string& path, Library& library) {
     auto document = json::parseFile(path);
     if (!document) return tl::unexpected(document.error());
     const auto schema = readSchema(library);
@@ -357,15 +347,11 @@ Checked<SceneFile> loadScene(const std::string& path, Library& library) {
     return scene;
 }
 
-Checked<SceneFile> sceneFromAsset(const std::string& path, const std::string& material, float aspect,
+Result<SceneFile> sceneFromAsset(const std::string& path, const std::string& material, float aspect,
                                   Library& library) {
     SceneFile file;
     auto geometry = parts::loadGeometry(path, 1, file.notes);
-    if (!geometry) {
-        Diagnostics all;
-        all.add(geometry.error());
-        return tl::unexpected(std::move(all));
-    }
+    if (!geometry) return tl::unexpected(geometry.error());
     auto parsed = library.material(material.empty() ? parts::defaultMaterial(**geometry) : material);
     if (!parsed) return tl::unexpected(parsed.error());
     file.notes.append(parsed->warnings);

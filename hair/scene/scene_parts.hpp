@@ -50,14 +50,14 @@ inline std::shared_ptr<const Geometry> generate(const GenerateRequest& request, 
 inline constexpr std::uint32_t fewStrands = 16000;
 
 /// Reads an asset and makes it drawable; what the reader noted is added to `notes`.
-inline Outcome<std::shared_ptr<const Geometry>> loadGeometry(const std::string& path, std::uint32_t subdivisions,
+inline Result<std::shared_ptr<const Geometry>> loadGeometry(const std::string& path, std::uint32_t subdivisions,
                                                              Diagnostics& notes) {
     auto loaded = loadAsset(path);
     if (!loaded) return tl::unexpected(loaded.error());
     notes.append(loaded->notes);
     if (const auto* read = std::get_if<Groom>(&loaded->asset)) {
         Groom groom = *read;
-        const auto note = [&](const char* code, const std::string& text) {
+        const auto note = [&](Code code, const std::string& text) {
             notes.add({.severity = Severity::Note, .code = code, .file = path, .text = text});
         };
         if (groom.strandCount() < fewStrands) {

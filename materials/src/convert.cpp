@@ -9,8 +9,8 @@
 namespace pelage::materials {
 namespace {
 
-Conversion refuse(std::string code, std::string text, std::string hint = {}) {
-    return {{}, Diagnostic{Severity::Error, std::move(code), {}, 0, 0, std::move(text), std::move(hint)}};
+tl::unexpected<Diagnostics> refuse(Code code, std::string text, std::string hint = {}) {
+    return tl::unexpected<Diagnostics>(Diagnostic{.code = code, .text = std::move(text), .hint = std::move(hint)});
 }
 
 std::string quoted(std::string_view text) {
@@ -49,21 +49,21 @@ std::string_view wanted(const Property& property) {
     return "something else";
 }
 
-Conversion refuseType(const Property& property, std::string_view found, std::string hint = {}) {
+tl::unexpected<Diagnostics> refuseType(const Property& property, std::string_view found, std::string hint = {}) {
     return refuse("V003",
                   quoted(property.id) + " must be " + std::string(wanted(property)) + ", found " + std::string(found),
                   std::move(hint));
 }
 
-Conversion fromWord(const Property& property, std::string_view word) {
+Result<Value> fromWord(const Property& property, std::string_view word) {
     const auto found = std::find(property.words.begin(), property.words.end(), word);
     if (found == property.words.end())
         return refuse("V004", quoted(word) + " is not a value of " + quoted(property.id),
                       nameHint(word, property.words));
-    return {Value{ValueType::Enum, {}, found - property.words.begin(), *found}, {}};
+    return Value{ValueType::Enum, {}, found - property.words.begin(), *found};
 }
 
-Conversion fromTexture(const Property& property, std::string_view path) {
+Result<Value> fromTexture(const Property& property, std::string_view path) {
     if (path.empty()) return refuseType(property, "an empty path", "for no texture write builtin.white");
     constexpr std::string_view prefix = "builtin.";
     if (path.substr(0, prefix.size()) == prefix) {
@@ -71,7 +71,7 @@ Conversion fromTexture(const Property& property, std::string_view path) {
         if (std::find(builtins.begin(), builtins.end(), path) == builtins.end())
             return refuse("V004", quoted(path) + " is not a built-in texture", nameHint(path, builtins));
     }
-    return {Value{property.type, {}, 0, std::string(path)}, {}};
+    return Value{property.type, {}, 0, std::string(path)};
 }
 
 double rounded(double number) {
@@ -81,8 +81,8 @@ double rounded(double number) {
 }
 
 // `numbers` are in the program's space already (colours linear); `written` is what the person wrote.
-Conversion fromNumbers(const Property& property, const std::vector<double>& numbers,
-                       const std::vector<double>& written) {
+Result<Value> fromNumbers(const Property& property, const std::vector<double>& numbers,
+                          const std::vector<double>& written, Diagnostics& warnings) {
     const Range range = rangeOf(property);
     // A range is told in the space the person wrote in, without the noise of the round trip.
     const bool isEncoded = property.type == ValueType::Color && property.srgb && &numbers != &written;
@@ -90,7 +90,7 @@ Conversion fromNumbers(const Property& property, const std::vector<double>& numb
         if (!isEncoded || std::abs(linear) > 1e3) return shown(linear);
         return shown(std::round(static_cast<double>(linearToSrgb(static_cast<float>(linear))) * 1e5) / 1e5);
     };
-    Conversion out;
+    bool isClamped = false;
     Value value;
     value.type = property.type;
     for (std::size_t i = 0; i < numbers.size(); ++i) {
@@ -98,15 +98,13 @@ Conversion fromNumbers(const Property& property, const std::vector<double>& numb
         const double number = isWhole(property.type) ? numbers[i] : rounded(numbers[i]);
         if (!std::isfinite(numbers[i])) return refuse("V013", "a number that is not finite for " + quoted(property.id));
         const double clamped = std::clamp(number, range.min, range.max);
-        if (clamped != number && !out.problem) {
-            out.problem = Diagnostic{Severity::Warning,
-                                     "V005",
-                                     {},
-                                     0,
-                                     0,
-                                     shown(written[i]) + " is outside " + bound(range.min) + ".." + bound(range.max) +
-                                         " of " + quoted(property.id),
-                                     "clamped to " + bound(clamped)};
+        if (clamped != number && !isClamped) {
+            isClamped = true;
+            warnings.add({.severity = Severity::Warning,
+                          .code = "V005",
+                          .text = shown(written[i]) + " is outside " + bound(range.min) + ".." + bound(range.max) +
+                                  " of " + quoted(property.id),
+                          .hint = "clamped to " + bound(clamped)});
         }
         if (isWhole(property.type)) {
             value.integer = static_cast<std::int64_t>(clamped);
@@ -116,11 +114,10 @@ Conversion fromNumbers(const Property& property, const std::vector<double>& numb
         }
     }
     if (property.type == ValueType::Color) value.number[3] = 1.0F;
-    out.value = std::move(value);
-    return out;
+    return value;
 }
 
-Conversion fromFileNumbers(const Property& property, const std::vector<double>& written) {
+Result<Value> fromFileNumbers(const Property& property, const std::vector<double>& written, Diagnostics& warnings) {
     std::vector<double> numbers = written;
     if (property.type == ValueType::Color && property.srgb) {
         for (double& number : numbers) {
@@ -128,7 +125,7 @@ Conversion fromFileNumbers(const Property& property, const std::vector<double>& 
             if (std::isfinite(number)) number = srgbToLinear(static_cast<float>(std::clamp(number, -1e3, 1e3)));
         }
     }
-    return fromNumbers(property, numbers, written);
+    return fromNumbers(property, numbers, written, warnings);
 }
 
 std::string_view trim(std::string_view text) {
@@ -208,7 +205,7 @@ Range rangeOf(const Property& property) {
     return range;
 }
 
-Conversion convert(const Property& property, const json::Value& value) {
+Result<Value> convert(const Property& property, const json::Value& value, Diagnostics& warnings) {
     const auto found = [&]() -> std::string_view {
         switch (value.kind) {
             case json::Kind::Null:
@@ -228,7 +225,7 @@ Conversion convert(const Property& property, const json::Value& value) {
     };
     switch (property.type) {
         case ValueType::Bool:
-            if (value.isBool()) return {Value::boolean(value.boolean), {}};
+            if (value.isBool()) return Value::boolean(value.boolean);
             return refuseType(property, found(),
                               value.string == "true" || value.string == "false" ? "remove the quotes" : "");
         case ValueType::Enum:
@@ -245,7 +242,7 @@ Conversion convert(const Property& property, const json::Value& value) {
                 return refuseType(property, found(), numberFromText(value.string) ? "remove the quotes" : "");
             if (!value.isNumber()) return refuseType(property, found());
             if (isWhole(property.type) && !value.isInteger) return refuseType(property, shown(value.number));
-            return fromFileNumbers(property, {value.number});
+            return fromFileNumbers(property, {value.number}, warnings);
         default:
             break;
     }
@@ -257,18 +254,18 @@ Conversion convert(const Property& property, const json::Value& value) {
     if (!value.isArray()) return refuseType(property, found(), "write [ ] around the numbers");
     if (numbers.size() != componentCount(property.type))
         return refuseType(property, "a list of " + std::to_string(numbers.size()));
-    return fromFileNumbers(property, numbers);
+    return fromFileNumbers(property, numbers, warnings);
 }
 
-Conversion convert(const Property& property, std::string_view given) {
+Result<Value> convert(const Property& property, std::string_view given, Diagnostics& warnings) {
     const std::string_view text = trim(given);
     switch (property.type) {
         case ValueType::Bool:
             for (const std::string_view yes : {"true", "1", "on", "yes"}) {
-                if (text == yes) return {Value::boolean(true), {}};
+                if (text == yes) return Value::boolean(true);
             }
             for (const std::string_view no : {"false", "0", "off", "no"}) {
-                if (text == no) return {Value::boolean(false), {}};
+                if (text == no) return Value::boolean(false);
             }
             return refuseType(property, quoted(text));
         case ValueType::Enum:
@@ -282,7 +279,7 @@ Conversion convert(const Property& property, std::string_view given) {
     if (property.type == ValueType::Color && !text.empty() && text.front() == '#') {
         const auto color = hexColor(text);
         if (!color) return refuseType(property, quoted(text), "write six hexadecimal digits, such as #805030");
-        return fromNumbers(property, *color, *color);
+        return fromNumbers(property, *color, *color, warnings);
     }
     std::vector<double> numbers;
     std::string_view rest = text;
@@ -296,17 +293,17 @@ Conversion convert(const Property& property, std::string_view given) {
         rest.remove_prefix(comma + 1);
     }
     if (numbers.size() != componentCount(property.type)) return refuseType(property, quoted(text));
-    return fromFileNumbers(property, numbers);
+    return fromFileNumbers(property, numbers, warnings);
 }
 
-Conversion convert(const Property& property, const Value& value) {
+Result<Value> convert(const Property& property, const Value& value, Diagnostics& warnings) {
     const bool isColor = property.type == ValueType::Color || property.type == ValueType::Float3;
     const bool givesColor = value.type == ValueType::Color || value.type == ValueType::Float3;
     if (value.type != property.type && !(isWhole(property.type) && isWhole(value.type)) && !(isColor && givesColor))
         return refuseType(property, name(value.type));
     switch (property.type) {
         case ValueType::Bool:
-            return {Value::boolean(value.integer != 0), {}};
+            return Value::boolean(value.integer != 0);
         case ValueType::Enum:
             if (!value.text.empty()) return fromWord(property, value.text);
             if (value.integer < 0 || static_cast<std::size_t>(value.integer) >= property.words.size())
@@ -319,7 +316,7 @@ Conversion convert(const Property& property, const Value& value) {
         case ValueType::Int:
         case ValueType::Uint: {
             const std::vector<double> whole{static_cast<double>(value.integer)};
-            return fromNumbers(property, whole, whole);
+            return fromNumbers(property, whole, whole, warnings);
         }
         default:
             break;
@@ -327,7 +324,7 @@ Conversion convert(const Property& property, const Value& value) {
     std::vector<double> numbers;
     for (std::size_t i = 0; i < componentCount(property.type); ++i)
         numbers.push_back(static_cast<double>(value.number[i]));
-    return fromNumbers(property, numbers, numbers);
+    return fromNumbers(property, numbers, numbers, warnings);
 }
 
 }  // namespace pelage::materials

@@ -7,16 +7,12 @@
 
 namespace pelage::materials {
 
-/// A value, a problem, or (clamped numbers) both: a value with a warning.
-struct Conversion {
-    std::optional<Value> value = {};
-    std::optional<Diagnostic> problem = {};  // without file and place
-};
-
-Conversion convert(const Property& property, const json::Value& value);
-Conversion convert(const Property& property, std::string_view text);
+/// The value, or why there is none (without file and place). A number outside the property's range is clamped and
+/// `warnings` gets V005.
+Result<Value> convert(const Property& property, const json::Value& value, Diagnostics& warnings);
+Result<Value> convert(const Property& property, std::string_view text, Diagnostics& warnings);
 /// From a program: the type must be the property's (Int and Uint, Color and Float3 may stand for each other).
-Conversion convert(const Property& property, const Value& value);
+Result<Value> convert(const Property& property, const Value& value, Diagnostics& warnings);
 
 /// Components of a number type (0 for others).
 std::size_t componentCount(ValueType type);

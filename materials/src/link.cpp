@@ -58,13 +58,13 @@ MaterialType::Linked Linker::run() {
     return std::move(out_);
 }
 
-void Linker::error(std::string code, json::Place place, std::string text, std::string hint) {
-    diagnostics_.add({Severity::Error, std::move(code), description_.file, place.line, place.column, std::move(text),
+void Linker::error(Code code, json::Place place, std::string text, std::string hint) {
+    diagnostics_.add({Severity::Error, code, description_.file, place.line, place.column, std::move(text),
                       std::move(hint)});
 }
 
-void Linker::warn(std::string code, json::Place place, std::string text, std::string hint) {
-    diagnostics_.add({Severity::Warning, std::move(code), description_.file, place.line, place.column, std::move(text),
+void Linker::warn(Code code, json::Place place, std::string text, std::string hint) {
+    diagnostics_.add({Severity::Warning, code, description_.file, place.line, place.column, std::move(text),
                       std::move(hint)});
 }
 
@@ -122,17 +122,20 @@ void Linker::linkDefaults() {
                   "needs min <= softMin < softMax <= max");
             continue;
         }
-        Conversion converted = convert(property, *description.defaultValue);
-        if (converted.value) property.defaultValue = *converted.value;
-        if (!converted.problem) continue;
-        const std::string code = converted.problem->code;
-        if (code == "V005") {
-            error("M005", description.defaultValue->place,
-                  "default " + converted.problem->text.substr(0, converted.problem->text.find(" is ")) + " of " +
-                      quoted(property.id) + " is outside " + shown(range.min) + ".." + shown(range.max));
+        Diagnostics clamped;
+        const Result<Value> converted = convert(property, *description.defaultValue, clamped);
+        if (converted) {
+            property.defaultValue = *converted;
         } else {
-            error(code == "V004" ? "M008" : "M004", description.defaultValue->place,
-                  "default: " + converted.problem->text, converted.problem->hint);
+            const Diagnostic& why = converted.error().first();
+            error(why.code == "V004" ? Code("M008") : Code("M004"), description.defaultValue->place,
+                  "default: " + why.text, why.hint);
+        }
+        if (!clamped.empty()) {
+            const std::string& text = clamped.first().text;
+            error("M005", description.defaultValue->place,
+                  "default " + text.substr(0, text.find(" is ")) + " of " + quoted(property.id) + " is outside " +
+                      shown(range.min) + ".." + shown(range.max));
         }
     }
 }
@@ -140,13 +143,13 @@ void Linker::linkDefaults() {
 void Linker::condition(const std::optional<Word>& expression, std::string_view key, std::size_t property,
                        std::vector<json::Condition>& out) {
     if (!expression) return;
-    Outcome<json::Condition> parsed = json::Condition::parse(expression->text, names_);
+    Result<json::Condition> parsed = json::Condition::parse(expression->text, names_);
     if (parsed) {
         for (const std::size_t read : parsed->reads()) propertyUsed_[read] = true;
         out.push_back(std::move(*parsed));
         return;
     }
-    const Diagnostic& fault = parsed.error();
+    const Diagnostic& fault = parsed.error().first();
     error(fault.code, {expression->place.line, expression->place.column + fault.column},
           fault.text + ", in " + std::string(key) + " of " + quoted(out_.properties[property].id), fault.hint);
 }

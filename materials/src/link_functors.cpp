@@ -51,9 +51,9 @@ void Linker::linkFunctor(const FunctorDescription& description) {
 
 bool Linker::linkFunctorInputs(const FunctorDescription& description, FunctorUse& use) {
     bool fits = true;
-    const auto refuse = [&](std::string code, json::Place place, std::string text, std::string hint) {
+    const auto refuse = [&](Code code, json::Place place, std::string text, std::string hint) {
         fits = false;
-        error(std::move(code), place, std::move(text), std::move(hint));
+        error(code, place, std::move(text), std::move(hint));
     };
     const std::vector<Port>& ports = use.type.in;
     std::vector<std::optional<std::size_t>> connected(ports.size());

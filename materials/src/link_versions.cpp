@@ -6,13 +6,17 @@
 namespace pelage::materials {
 
 std::optional<Value> Linker::value(const json::Value& written, std::size_t property) {
-    Conversion converted = convert(out_.properties[property], written);
-    if (converted.problem) {
-        // A clamped number in a type is the author's mistake, unlike in a material, where the range may have moved.
-        error(converted.problem->code, written.place, converted.problem->text,
-              converted.value ? "write a number inside the range" : converted.problem->hint);
+    Diagnostics clamped;
+    const Result<Value> converted = convert(out_.properties[property], written, clamped);
+    if (!converted) {
+        const Diagnostic& why = converted.error().first();
+        error(why.code, written.place, why.text, why.hint);
+        return {};
     }
-    return converted.value;
+    // A clamped number in a type is the author's mistake, unlike in a material, where the range may have moved.
+    for (const Diagnostic& each : clamped.items())
+        error(each.code, written.place, each.text, "write a number inside the range");
+    return *converted;
 }
 
 void Linker::linkVersions() {

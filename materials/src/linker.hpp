@@ -49,8 +49,8 @@ private:
     void linkPresets();
     std::optional<Value> value(const json::Value& written, std::size_t property);
 
-    void error(std::string code, json::Place place, std::string text, std::string hint = {});
-    void warn(std::string code, json::Place place, std::string text, std::string hint = {});
+    void error(Code code, json::Place place, std::string text, std::string hint = {});
+    void warn(Code code, json::Place place, std::string text, std::string hint = {});
     std::string targetName(const Target& target) const;
 
     const TypeDescription& description_;

@@ -8,13 +8,9 @@ namespace pelage::materials {
 namespace {
 
 Diagnostic unknownProperty(std::string_view id, const MaterialType& type) {
-    return {Severity::Error,
-            "V002",
-            {},
-            0,
-            0,
-            "material type has no property '" + std::string(id) + "'",
-            nameHint(id, propertyIds(type.properties()))};
+    return {.code = "V002",
+            .text = "material type has no property '" + std::string(id) + "'",
+            .hint = nameHint(id, propertyIds(type.properties()))};
 }
 
 }  // namespace
@@ -34,24 +30,33 @@ void Material::reset() {
     }
 }
 
-std::optional<Diagnostic> Material::assign(std::string_view id,
-                                           const std::function<Conversion(const Property&)>& from) {
+void Material::assign(std::size_t property, const Value& value) {
+    if (value == values_[property]) return;
+    values_[property] = value;
+    dirty_[property] = true;
+}
+
+template <class Given>
+Diagnostics Material::take(std::string_view id, const Given& given) {
     const auto index = type_->linked().indexOf(id);
     if (!index) return unknownProperty(id, *type_);
-    Conversion converted = from(type_->properties()[*index]);
-    if (converted.value && !(*converted.value == values_[*index])) {
-        values_[*index] = std::move(*converted.value);
-        dirty_[*index] = true;
-    }
-    return converted.problem;
+    Diagnostics found;
+    const Result<Value> converted = convert(type_->properties()[*index], given, found);
+    if (!converted) return converted.error();
+    assign(*index, *converted);
+    return found;
 }
 
-std::optional<Diagnostic> Material::set(std::string_view id, const Value& value) {
-    return assign(id, [&](const Property& property) { return convert(property, value); });
+Diagnostics Material::set(std::string_view id, const Value& value) {
+    return take(id, value);
 }
 
-std::optional<Diagnostic> Material::setFromText(std::string_view id, std::string_view text) {
-    return assign(id, [&](const Property& property) { return convert(property, text); });
+Diagnostics Material::set(std::string_view id, const json::Value& value) {
+    return take(id, value);
+}
+
+Diagnostics Material::setFromText(std::string_view id, std::string_view text) {
+    return take(id, text);
 }
 
 const Value* Material::get(std::string_view id) const {
@@ -59,23 +64,17 @@ const Value* Material::get(std::string_view id) const {
     return index ? &values_[*index] : nullptr;
 }
 
-std::optional<Diagnostic> Material::applyPreset(std::string_view name) {
+Diagnostics Material::applyPreset(std::string_view name) {
     for (const Preset& preset : type_->linked().presets) {
         if (preset.name != name) continue;
         for (const auto& [property, value] : preset.values) {
-            if (values_[property] == value) continue;
-            values_[property] = value;
-            dirty_[property] = true;
+            assign(property, value);
         }
         return {};
     }
-    return Diagnostic{Severity::Error,
-                      "V008",
-                      {},
-                      0,
-                      0,
-                      "material type has no preset '" + std::string(name) + "'",
-                      nameHint(name, type_->presets())};
+    return Diagnostic{.code = "V008",
+                      .text = "material type has no preset '" + std::string(name) + "'",
+                      .hint = nameHint(name, type_->presets())};
 }
 
 namespace {

@@ -4,7 +4,6 @@
 
 #include "convert.hpp"
 #include "link.hpp"
-#include "schemas.hpp"
 
 #include <algorithm>
 #include <filesystem>
@@ -23,13 +22,13 @@ std::string normal(const std::string& path) {
 
 }  // namespace
 
-void MaterialReader::report(Severity severity, std::string code, const json::Document& document, json::Place place,
+void MaterialReader::report(Severity severity, Code code, const json::Document& document, json::Place place,
                             std::string text, std::string hint) {
     diagnostics.add(
-        {severity, std::move(code), document.file, place.line, place.column, std::move(text), std::move(hint)});
+        {severity, code, document.file, place.line, place.column, std::move(text), std::move(hint)});
 }
 
-Checked<Material::Parsed> MaterialReader::run(Checked<json::Document> document) {
+Result<Material::Parsed> MaterialReader::run(Result<json::Document> document) {
     if (!document) return tl::unexpected<Diagnostics>(std::move(document.error()));
     if (!add(std::move(*document)) || !findType() || !addParents())
         return tl::unexpected<Diagnostics>(std::move(diagnostics));
@@ -43,7 +42,7 @@ Checked<Material::Parsed> MaterialReader::run(Checked<json::Document> document) 
 }
 
 bool MaterialReader::add(json::Document document) {
-    const Checked<json::Schema> schema = json::Schema::parse(materialSchema(), "material.schema.json");
+    const Result<json::Schema> schema = json::Schema::parse(materialSchema(), "material.schema.json");
     Diagnostics found = schema ? schema->validate(document) : schema.error();
     diagnostics.append(found);
     chain.push_back(std::move(document));
@@ -52,7 +51,7 @@ bool MaterialReader::add(json::Document document) {
 
 bool MaterialReader::findType() {
     const json::Value& name = *chain.front().root.find("type");
-    auto found = types ? types(name.string) : Checked<std::shared_ptr<const MaterialType>>(nullptr);
+    auto found = types ? types(name.string) : Result<std::shared_ptr<const MaterialType>>(nullptr);
     if (found && *found) {
         type = std::move(*found);
         return true;
@@ -75,7 +74,7 @@ bool MaterialReader::addParents() {
         }
         const json::Place place = parent->place;
         const std::string name = parent->string;
-        Checked<json::Document> document = json::parseFile(path);
+        Result<json::Document> document = json::parseFile(path);
         const bool usable = document.has_value() && add(std::move(*document));
         if (!usable) {
             const json::Document& child = document ? chain[chain.size() - 2] : chain.back();
@@ -162,21 +161,27 @@ void MaterialReader::readValue(Material& material, const json::Document& documen
     if (now.name != member.key)
         report(Severity::Note, "V007", document, member.place, "'" + member.key + "' is now '" + now.name + "'",
                "save the material to make this permanent");
-    Conversion converted = convert(linked.properties[*index], now.value);
-    if (converted.value) material.set(now.name, *converted.value);
-    if (!converted.problem) return;
-    converted.problem->file = document.file;
-    converted.problem->line = member.value.place.line;
-    converted.problem->column = member.value.place.column;
-    diagnostics.add(std::move(*converted.problem));
+    Diagnostics found;
+    const Result<Value> converted = convert(linked.properties[*index], now.value, found);
+    if (converted) {
+        material.assign(*index, *converted);
+    } else {
+        found = converted.error();
+    }
+    for (Diagnostic each : found.items()) {
+        each.file = document.file;
+        each.line = member.value.place.line;
+        each.column = member.value.place.column;
+        diagnostics.add(std::move(each));
+    }
 }
 
-Checked<Material::Parsed> Material::parse(std::string_view text, const std::string& file, const TypeSource& types,
+Result<Material::Parsed> Material::parse(std::string_view text, const std::string& file, const TypeSource& types,
                                           const ParentSource& parents) {
     return MaterialReader{types, parents}.run(json::parse(text, file));
 }
 
-Checked<Material::Parsed> Material::load(const std::string& path, const TypeSource& types,
+Result<Material::Parsed> Material::load(const std::string& path, const TypeSource& types,
                                          const ParentSource& parents) {
     return MaterialReader{types, parents}.run(json::parseFile(path));
 }

@@ -15,7 +15,7 @@ struct MaterialReader {
     std::shared_ptr<const MaterialType> type = {};
 
     /// Reads everything; `chain` and `type` are kept for whoever wants more than the material.
-    Checked<Material::Parsed> run(Checked<json::Document> document);
+    Result<Material::Parsed> run(Result<json::Document> document);
 
 private:
     bool add(json::Document document);
@@ -26,7 +26,7 @@ private:
     void readValues(Material& material, const json::Document& document, bool hasNoParent);
     void readValue(Material& material, const json::Document& document, const json::Member& member, int version,
                    std::vector<std::pair<std::size_t, json::Place>>& seen);
-    void report(Severity severity, std::string code, const json::Document& document, json::Place place,
+    void report(Severity severity, Code code, const json::Document& document, json::Place place,
                 std::string text, std::string hint = {});
 };
 

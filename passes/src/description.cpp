@@ -27,11 +27,24 @@ std::string Reporter::at(Place place) const {
            ":" + std::to_string(place.column);
 }
 
-void Reporter::add(Severity severity, Place place, std::string_view code, std::string text, std::string hint) {
+void Reporter::add(Severity severity, Place place, Code code, std::string text, std::string hint) {
     const std::size_t file = std::min(fileOf(place), files_.size() - 1);
     out_.add(
-        {severity, std::string(code), files_[file], lineOf(place), place.column, std::move(text), std::move(hint)});
+        {severity, code, files_[file], lineOf(place), place.column, std::move(text), std::move(hint)});
     errors_ += severity == Severity::Error ? 1 : 0;
+}
+
+void Reporter::forward(Place place, const Diagnostics& faults, const std::string& context) {
+    for (Diagnostic fault : faults.items()) {
+        fault.context.push_back(context);
+        if (fault.file.empty()) {
+            fault.file = files_[std::min(fileOf(place), files_.size() - 1)];
+            fault.line = lineOf(place);
+            fault.column = place.column;
+        }
+        errors_ += fault.severity == Severity::Error ? 1 : 0;
+        out_.add(std::move(fault));
+    }
 }
 
 const SlotDeclaration* PassDeclaration::slot(std::string_view word) const {

@@ -31,19 +31,22 @@ class Reporter {
 public:
     Reporter(std::vector<std::string> files, Diagnostics& out) : files_(std::move(files)), out_(out) {}
     Reporter(const std::string& file, Diagnostics& out) : files_{file}, out_(out) {}
-    void error(Place place, std::string_view code, std::string text, std::string hint = {}) {
+    void error(Place place, Code code, std::string text, std::string hint = {}) {
         add(Severity::Error, place, code, std::move(text), std::move(hint));
     }
-    void warning(Place place, std::string_view code, std::string text, std::string hint = {}) {
+    void warning(Place place, Code code, std::string text, std::string hint = {}) {
         add(Severity::Warning, place, code, std::move(text), std::move(hint));
     }
+    /// Faults that were found elsewhere keep their codes and get this place where they have none; `context` says what
+    /// was being done.
+    void forward(Place place, const Diagnostics& faults, const std::string& context);
     bool failed() const { return out_.hasErrors(); }
     std::size_t errors() const { return errors_; }
     /// "12:5", with the file when that is not the tree's own.
     std::string at(Place place) const;
 
 private:
-    void add(Severity severity, Place place, std::string_view code, std::string text, std::string hint);
+    void add(Severity severity, Place place, Code code, std::string text, std::string hint);
 
     std::vector<std::string> files_;
     Diagnostics& out_;

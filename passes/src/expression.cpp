@@ -18,9 +18,9 @@ std::optional<Expression> Expression::parse(const std::string& text, json::Place
                                                         : Type::Word;
         names.names.push_back({setting->name, type, setting->words});
     }
-    Outcome<json::Condition> parsed = json::Condition::parse(text, names);
+    Result<json::Condition> parsed = json::Condition::parse(text, names);
     if (!parsed) {
-        const Diagnostic& fault = parsed.error();
+        const Diagnostic& fault = parsed.error().first();
         // The quote that opens the string stands before the first byte of the text.
         reporter.error({place.line, place.column + fault.column}, fault.code, about + ": " + fault.text, fault.hint);
         return std::nullopt;

@@ -4,9 +4,9 @@
 namespace pelage::passes {
 namespace {
 
-Checked<void> failure(const PassTree& tree, const rhi::Error& error, const std::string& what) {
+Result<void> failure(const PassTree& tree, const Diagnostics& faults, const std::string& what) {
     Diagnostics out;
-    Reporter(tree.file(), out).error({}, "D003", what + " of '" + tree.name() + "': " + rhi::toString(error));
+    Reporter(tree.file(), out).forward({}, faults, what + " of pass tree '" + tree.name() + "'");
     return tl::unexpected(std::move(out));
 }
 
@@ -19,7 +19,7 @@ rhi::TextureDescriptor descriptorOf(const PlanResource& image) {
 }
 
 // A device may keep some format out of the heap's kind of memory; such an image has its own.
-rhi::Result<rhi::Texture> makeTexture(const rhi::Device& device, const PlanResource& image,
+Result<rhi::Texture> makeTexture(const rhi::Device& device, const PlanResource& image,
                                       const rhi::TransientHeap& heap) {
     rhi::TextureDescriptor descriptor = descriptorOf(image);
     if (heap) {
@@ -28,7 +28,7 @@ rhi::Result<rhi::Texture> makeTexture(const rhi::Device& device, const PlanResou
         device.pushErrorScope();
         auto placed = device.createTexture(descriptor);
         device.popErrorScope();
-        if (placed || placed.error().code != rhi::ErrorCode::FormatUnsupported) return placed;
+        if (placed || placed.error().first().code != rhi::ErrorCode::FormatUnsupported) return placed;
         descriptor.heap = {};
         descriptor.heapOffset = 0;
     }
@@ -36,7 +36,7 @@ rhi::Result<rhi::Texture> makeTexture(const rhi::Device& device, const PlanResou
 }
 
 // The images and buffers that the plan creates. Histories are made by makeHistories().
-rhi::Result<void> makeResources(Graph::State& state) {
+Result<void> makeResources(Graph::State& state) {
     rhi::TransientHeap heap;
     if (state.plan.heapBytes > 0) {
         auto made = state.device.createTransientHeap({.label = "transient images", .size = state.plan.heapBytes});
@@ -99,7 +99,7 @@ std::uint32_t Graph::State::layersOf(const PlanPass& pass) const {
 
 Graph::Graph(Descriptor descriptor) : descriptor_(std::move(descriptor)) {}
 
-Checked<void> Graph::build(const PassTree& tree, const HostDescription& host) {
+Result<void> Graph::build(const PassTree& tree, const HostDescription& host) {
     if (state_ && !stale_ && state_->tree == tree.shared() && same(state_->host, host)) return {};
     HostDescription asked = host;
     if (!asked.supports) {
@@ -118,7 +118,7 @@ Checked<void> Graph::build(const PassTree& tree, const HostDescription& host) {
         };
     }
     if (asked.classes.empty()) asked.classes = descriptor_.classes.infos();
-    Checked<Plan> plan = tree.compile(asked);
+    Result<Plan> plan = tree.compile(asked);
     if (!plan) return tl::unexpected(std::move(plan.error()));
 
     auto state = std::make_shared<State>();
@@ -133,12 +133,12 @@ Checked<void> Graph::build(const PassTree& tree, const HostDescription& host) {
         state->fixtures = state_->fixtures;
     } else {
         auto fixtures = makeFixtures(state->device, host.depth);
-        if (!fixtures) return failure(tree, fixtures.error(), "cannot make the samplers and stand-ins");
+        if (!fixtures) return failure(tree, fixtures.error(), "the samplers and stand-ins");
         state->fixtures = std::move(*fixtures);
     }
     auto made = makeResources(*state);
     if (made) made = makeHistories(*state, state_.get());
-    if (!made) return failure(tree, made.error(), "cannot make the images and buffers");
+    if (!made) return failure(tree, made.error(), "the images and buffers");
     for (std::size_t i = 0; i < state->passes.size(); ++i) {
         state->passes[i].targets = targetsOf(state->plan, state->plan.passes[i]);
         state->passes[i].queries = {state->queryCount, state->layersOf(state->plan.passes[i])};
@@ -146,7 +146,7 @@ Checked<void> Graph::build(const PassTree& tree, const HostDescription& host) {
     }
     if (descriptor_.measure) {
         if (const auto queries = makeQueries(*state); !queries)
-            return failure(tree, queries.error(), "cannot make the queries");
+            return failure(tree, queries.error(), "the queries");
     }
     Diagnostics out;
     Reporter reporter(tree.description().files, out);

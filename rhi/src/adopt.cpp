@@ -31,7 +31,7 @@ std::string joined(const std::vector<std::string>& parts) {
     return text;
 }
 
-tl::unexpected<Error> empty(std::string_view what) {
+tl::unexpected<Diagnostics> empty(std::string_view what) {
     return invalid(ErrorCode::InvalidHandle, cat("An empty handle was given for ", what, '.'));
 }
 

@@ -75,7 +75,7 @@ struct DeviceObject : std::enable_shared_from_this<DeviceObject> {
     ~DeviceObject();
 
     /// Gives the error to the innermost scope or the callback, and back to the caller.
-    void report(const Error& error);
+    void report(const Diagnostics& errors);
     template <class T>
     Result<T> reported(Result<T> result) {
         if (!result) report(result.error());
@@ -90,7 +90,7 @@ struct DeviceObject : std::enable_shared_from_this<DeviceObject> {
     /// A submission (or ticket) of this value exists from now on; completed() will not pass it before it is done.
     void began(std::uint64_t value, bool ticket);
     void finishTicket(std::uint64_t value);
-    void loseDevice(const Error& error);
+    void loseDevice(const Diagnostic& error);
     void nameObject(VkObjectType type, std::uint64_t object, const std::string& text) const;
     template <class T>
     void nameObject(VkObjectType type, T object, const std::string& text) const {
@@ -113,7 +113,7 @@ struct DeviceObject : std::enable_shared_from_this<DeviceObject> {
     AdapterInfo info;
     Toggles toggles;
     bool depthClamp = false, rectangularLines = false;
-    std::function<void(const Error&)> onUncapturedError, onDeviceLost;
+    std::function<void(const Diagnostic&)> onUncapturedError, onDeviceLost;
     std::function<void()> onRelease;
     std::atomic<bool> lost{false};
     std::atomic<std::uint64_t> nextId{1};
@@ -125,7 +125,7 @@ struct DeviceObject : std::enable_shared_from_this<DeviceObject> {
     std::atomic<std::uint32_t> pipelinesMade{0}, pipelinesCached{0}, pipelinesSinceStore{0};
 
     std::mutex scopeMutex;
-    std::vector<std::optional<Error>> scopes;
+    std::vector<std::optional<Diagnostic>> scopes;
 
     std::mutex graveMutex;
     struct Grave {
@@ -185,7 +185,7 @@ Result<void> checkBuffers(DeviceObject& device, std::span<const CommandBuffer> c
 /// Writes the pending uploads and the recordings; markSent() afterwards, when the commands are on their way.
 void replayAll(DeviceObject& device, Replay& replay, std::span<const CommandBuffer> commandBuffers);
 void markSent(DeviceObject& device, std::uint64_t value, std::span<const CommandBuffer> commandBuffers);
-Error lostError(const DeviceObject& device);
+Diagnostic lostError(const DeviceObject& device);
 Result<Submission> submitLocked(DeviceObject& device, std::span<const CommandBuffer> commandBuffers,
                                 const SubmitExtras& extras);
 

@@ -17,7 +17,7 @@ Result<VkBufferImageCopy> texelCopy(const TexelCopyTextureInfo& info, const Texe
                                     const Extent3D& size, std::uint64_t bufferSize, const std::string& buffer) {
     const auto& texture = *info.texture.get();
     const auto& d = texture.descriptor;
-    const auto bad = [&](ErrorCode code, auto&&... parts) { return invalid(code, cat(parts...)); };
+    const auto bad = [&](Code code, auto&&... parts) { return invalid(code, cat(parts...)); };
     const bool volume = d.dimension == TextureDimension::E3D;
     if (d.sampleCount > 1)
         return bad(ErrorCode::SampleCount, texture.describe(), " has ", d.sampleCount,

@@ -16,7 +16,7 @@ namespace {
 /// Everything a draw needs is set and large enough.
 bool readyToDraw(EncoderObject& e, const detail::CommandName& command, std::uint64_t vertices,
                  std::uint64_t instances) {
-    const auto stop = [&](ErrorCode code, std::string text) {
+    const auto stop = [&](Code code, std::string text) {
         e.fail(invalid(code, std::move(text)).value(), command.text());
         return false;
     };

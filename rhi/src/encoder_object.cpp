@@ -81,9 +81,9 @@ void ScopeBuilder::clear() {
     first_.clear();
 }
 
-void EncoderObject::fail(const Error& first, std::string innermost) {
+void EncoderObject::fail(const Diagnostics& errors, std::string innermost) {
     if (error) return;
-    error = first;
+    error = errors.first();
     if (!innermost.empty()) error->context.push_back(std::move(innermost));
     if (state == State::RenderPass || state == State::ComputePass)
         error->context.push_back(cat(state == State::RenderPass ? "RenderPass \"" : "ComputePass \"", pass.label, '"'));
@@ -278,7 +278,7 @@ bool EncoderObject::indirectArguments(const Buffer& buffer, std::uint64_t offset
 }
 
 bool EncoderObject::flushBindings(VkPipelineBindPoint point, VkPipelineStageFlags2 stages, const CommandName& command) {
-    const auto stop = [&](ErrorCode code, std::string text) {
+    const auto stop = [&](Code code, std::string text) {
         fail(invalid(code, std::move(text)).value(), command.text());
         return false;
     };

@@ -16,7 +16,7 @@ struct EncoderObject {
     enum class State : std::uint8_t { Open, RenderPass, ComputePass, Finished };
 
     /// Keeps the first error, with where it happened.
-    void fail(const Error& error, std::string innermost = {});
+    void fail(const Diagnostics& errors, std::string innermost = {});
     void check(const Result<void>& result, std::string innermost = {}) {
         if (!result) fail(result.error(), std::move(innermost));
     }
@@ -54,7 +54,7 @@ struct EncoderObject {
     std::string label;
     Recording recording;
     State state = State::Open;
-    std::optional<Error> error;
+    std::optional<Diagnostic> error;
     std::optional<CommandBuffer> finished;
     PassState& pass = recording.pass;
     ScopeBuilder& scope = recording.scope;

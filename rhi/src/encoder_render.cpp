@@ -24,7 +24,7 @@ struct PassBuilder {
     std::uint32_t samples = 0;
     const detail::TextureViewObject* first = nullptr;
 
-    bool stop(ErrorCode code, std::string text) {
+    bool stop(Code code, std::string text) {
         e.fail(invalid(code, std::move(text)).value(), cat("RenderPass \"", label, '"'));
         return false;
     }
@@ -192,7 +192,7 @@ void RenderPassEncoder::setPipeline(const RenderPipeline& pipeline) {
     if (!e.accept(pipeline, "the pipeline") || e.pass.pipeline == pipeline.get()) return;
     const auto& object = *pipeline.get();
     const auto& pass = e.recording.passes.back();
-    const auto stop = [&](ErrorCode code, auto&&... parts) {
+    const auto stop = [&](Code code, auto&&... parts) {
         e.fail(invalid(code, cat(object.describe(), parts...)).value());
     };
     if (object.colorFormats.size() != pass.colors.size())

@@ -1,18 +1,7 @@
 // SPDX-License-Identifier: MIT
 #include "device_object.hpp"
 
-#include <iomanip>
-
 namespace pelage::rhi {
-
-std::string toString(const Error& error) {
-    std::ostringstream out;
-    out << 'R' << std::setw(3) << std::setfill('0') << static_cast<unsigned>(error.code) << ": " << error.message;
-    for (std::size_t i = error.context.size(); i-- > 0;)
-        out << (i + 1 == error.context.size() ? " While validating " : " > ") << error.context[i]
-            << (i == 0 ? "." : "");
-    return out.str();
-}
 
 namespace detail {
 
@@ -61,26 +50,27 @@ const char* resultName(VkResult result) {
     }
 }
 
-Error vulkanError(VkResult result, std::string_view call, std::string_view object) {
-    const auto text = cat(call, " for ", object, " failed with ", resultName(result), ".");
+Diagnostic vulkanError(VkResult result, std::string_view call, std::string_view object) {
+    auto text = cat(call, " for ", object, " failed with ", resultName(result), ".");
     switch (result) {
         case VK_ERROR_OUT_OF_HOST_MEMORY:
         case VK_ERROR_OUT_OF_DEVICE_MEMORY:
         case VK_ERROR_OUT_OF_POOL_MEMORY:
         case VK_ERROR_FRAGMENTED_POOL:
         case VK_ERROR_TOO_MANY_OBJECTS:
-            return {ErrorKind::OutOfMemory, ErrorCode::OutOfMemory, text, {}};
+            return {.code = ErrorCode::OutOfMemory, .text = std::move(text), .kind = ErrorKind::OutOfMemory};
         case VK_ERROR_DEVICE_LOST:
-            return {ErrorKind::DeviceLost, ErrorCode::DeviceLost, text, {}};
+            return {.code = ErrorCode::DeviceLost, .text = std::move(text), .kind = ErrorKind::DeviceLost};
         case VK_ERROR_SURFACE_LOST_KHR:
         case VK_ERROR_NATIVE_WINDOW_IN_USE_KHR:
-            return {ErrorKind::Internal, ErrorCode::Surface, text, {}};
+            return {.code = ErrorCode::Surface, .text = std::move(text), .kind = ErrorKind::Internal};
         default:
-            return {ErrorKind::Internal, ErrorCode::DriverCall, text, {}};
+            return {.code = ErrorCode::DriverCall, .text = std::move(text), .kind = ErrorKind::Internal};
     }
 }
 
-void DeviceObject::report(const Error& error) {
+void DeviceObject::report(const Diagnostics& errors) {
+    const Diagnostic& error = errors.first();
     if (error.kind == ErrorKind::DeviceLost) loseDevice(error);
     {
         const std::lock_guard lock(scopeMutex);
@@ -93,12 +83,10 @@ void DeviceObject::report(const Error& error) {
         onUncapturedError(error);
         return;
     }
-    std::ostringstream id;
-    id << 'R' << std::setw(3) << std::setfill('0') << static_cast<unsigned>(error.code);
-    adapter->instance->message(LogLevel::Error, id.str(), toString(error));
+    adapter->instance->message(LogLevel::Error, std::string(error.code.text()), toString(error));
 }
 
-void DeviceObject::loseDevice(const Error& error) {
+void DeviceObject::loseDevice(const Diagnostic& error) {
     if (!lost.exchange(true) && onDeviceLost) onDeviceLost(error);
 }
 
@@ -110,7 +98,7 @@ void Device::pushErrorScope() const {
     object_->scopes.emplace_back();
 }
 
-std::optional<Error> Device::popErrorScope() const {
+std::optional<Diagnostic> Device::popErrorScope() const {
     if (!object_) return std::nullopt;
     const std::lock_guard lock(object_->scopeMutex);
     if (object_->scopes.empty()) return std::nullopt;

@@ -6,8 +6,10 @@
 namespace pelage::rhi {
 namespace detail {
 
-Error lostError(const DeviceObject& device) {
-    return {ErrorKind::DeviceLost, ErrorCode::DeviceLost, cat("[Device \"", device.label, "\"] was lost."), {}};
+Diagnostic lostError(const DeviceObject& device) {
+    return {.code = ErrorCode::DeviceLost,
+            .text = cat("[Device \"", device.label, "\"] was lost."),
+            .kind = ErrorKind::DeviceLost};
 }
 
 namespace {

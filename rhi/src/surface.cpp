@@ -48,7 +48,7 @@ void SurfaceObject::release() {
 
 namespace {
 
-tl::unexpected<Error> surfaceError(std::string message) {
+tl::unexpected<Diagnostics> surfaceError(std::string message) {
     return fail(ErrorKind::Validation, ErrorCode::Surface, std::move(message));
 }
 

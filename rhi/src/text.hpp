@@ -18,19 +18,16 @@ std::string cat(const Parts&... parts) {
     return out.str();
 }
 
-inline tl::unexpected<Error> fail(ErrorKind kind, ErrorCode code, std::string message) {
-    return tl::unexpected<Error>(Error{kind, code, std::move(message), {}});
+inline tl::unexpected<Diagnostics> fail(ErrorKind kind, Code code, std::string text) {
+    return tl::unexpected<Diagnostics>(Diagnostic{.code = code, .text = std::move(text), .kind = kind});
 }
-/// A misuse that was caught before Vulkan saw it.
-inline tl::unexpected<Error> invalid(ErrorCode code, std::string message) {
-    return fail(ErrorKind::Validation, code, std::move(message));
+/// A call that breaks the rules.
+inline tl::unexpected<Diagnostics> invalid(Code code, std::string text) {
+    return fail(ErrorKind::Validation, code, std::move(text));
 }
-inline tl::unexpected<Error> forward(Error error) {
-    return tl::unexpected<Error>(std::move(error));
+inline tl::unexpected<Diagnostics> forward(Diagnostics errors) {
+    return tl::unexpected<Diagnostics>(std::move(errors));
 }
-
-const char* resultName(VkResult result);
-/// The error for a Vulkan call that failed: names the call and the object it was made for.
-Error vulkanError(VkResult result, std::string_view call, std::string_view object);
+Diagnostic vulkanError(VkResult result, std::string_view call, std::string_view object);
 
 }  // namespace pelage::rhi::detail

@@ -40,7 +40,7 @@ Result<void> checkDescriptor(const TextureObject& object) {
     const auto& d = object.descriptor;
     const auto& limits = object.device->info.limits;
     const bool volume = d.dimension == TextureDimension::E3D;
-    const auto bad = [&](ErrorCode code, auto&&... parts) { return invalid(code, cat(object.describe(), parts...)); };
+    const auto bad = [&](Code code, auto&&... parts) { return invalid(code, cat(object.describe(), parts...)); };
     if (d.size.width == 0 || d.size.height == 0 || d.size.depthOrArrayLayers == 0)
         return bad(ErrorCode::InvalidSize, " has size ", d.size.width, 'x', d.size.height, 'x',
                    d.size.depthOrArrayLayers, "; no extent may be 0.");
@@ -72,7 +72,7 @@ Result<void> checkTexture(const DeviceObject& device, const TextureObject& objec
     if (auto ok = checkDescriptor(object); !ok) return ok;
     const auto& d = object.descriptor;
     const bool volume = d.dimension == TextureDimension::E3D;
-    const auto bad = [&](ErrorCode code, auto&&... parts) { return invalid(code, cat(object.describe(), parts...)); };
+    const auto bad = [&](Code code, auto&&... parts) { return invalid(code, cat(object.describe(), parts...)); };
     VkPhysicalDeviceImageFormatInfo2 query = {VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_IMAGE_FORMAT_INFO_2};
     query.format = info.format;
     query.type = info.imageType;
@@ -179,7 +179,7 @@ Result<Texture> makeTexture(const std::shared_ptr<DeviceObject>& device, const T
 Result<TextureViewDescriptor> completeView(const TextureObject& texture, TextureViewDescriptor d) {
     const auto& t = texture.descriptor;
     const std::uint32_t layers = texture.layers();
-    const auto bad = [&](ErrorCode code, auto&&... parts) {
+    const auto bad = [&](Code code, auto&&... parts) {
         return invalid(code, cat("[TextureView \"", d.label, "\"] of ", texture.describe(), parts...));
     };
     if (!d.dimension)

@@ -48,12 +48,8 @@ struct Arguments {
     bool validation = false;
 };
 
-Checked<void> run(const Arguments& arguments) {
-    const auto failed = [](Diagnostic diagnostic) {
-        Diagnostics all;
-        all.add(std::move(diagnostic));
-        return tl::unexpected(std::move(all));
-    };
+Result<void> run(const Arguments& arguments) {
+    const auto failed = [](Diagnostics faults) { return tl::unexpected<Diagnostics>(std::move(faults)); };
 
     // The functor by its name, then the type and material that name it.
     materials::FunctorRegistry functors = hair::functorRegistry();
@@ -62,7 +58,8 @@ Checked<void> run(const Arguments& arguments) {
     auto material = library.material(SAMPLE_DIR "/petrol.material.json");
     if (!material) return tl::unexpected(material.error());
     if (!arguments.thickness.empty()) {
-        if (auto fault = material->material.setFromText("film.thickness", arguments.thickness)) return failed(*fault);
+        const Diagnostics found = material->material.setFromText("film.thickness", arguments.thickness);
+        if (found.hasErrors()) return failed(found);
     }
     auto skin = library.material("skin");
     auto tree = library.passTree("hair_frame");
@@ -86,11 +83,11 @@ Checked<void> run(const Arguments& arguments) {
                                                ++complaints;
                                                std::fprintf(stderr, "%s\n", m.text.c_str());
                                            }});
-    if (!instance) return failed(hair::toDiagnostic(instance.error()));
+    if (!instance) return failed(instance.error());
     auto adapter = instance->requestAdapter();
-    if (!adapter) return failed(hair::toDiagnostic(adapter.error()));
+    if (!adapter) return failed(adapter.error());
     auto device = adapter->requestDevice();
-    if (!device) return failed(hair::toDiagnostic(device.error()));
+    if (!device) return failed(device.error());
     // The shader by the name that the material type gives it.
     auto renderer = hair::Renderer::create({.device = *device, .tree = *tree, .shaders = sample::embeddedShader});
     if (!renderer) return failed(renderer.error());
@@ -100,8 +97,8 @@ Checked<void> run(const Arguments& arguments) {
 
     const int size = static_cast<int>(arguments.size);
     if (!stbi_write_png(arguments.output.c_str(), size, size, 4, picture->display.data(), 4 * size))
-        return failed({.code = "A020", .file = arguments.output, .text = "the picture cannot be written"});
-    if (complaints > 0) return failed({.code = "A031", .text = "the validation layer found errors"});
+        return failed(Diagnostic{.code = "A020", .file = arguments.output, .text = "the picture cannot be written"});
+    if (complaints > 0) return failed(Diagnostic{.code = "A031", .text = "the validation layer found errors"});
     return {};
 }
 

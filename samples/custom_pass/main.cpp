@@ -31,7 +31,7 @@ passes::PassClass outline() {
                                  .description = "How much nearer an edge is, as a part of the distance",
                                  .min = 0.001,
                                  .defaultNumber = 0.03}}};
-    made.create = [](const passes::PassSetup& setup) -> rhi::Result<passes::PassRecorder> {
+    made.create = [](const passes::PassSetup& setup) -> Result<passes::PassRecorder> {
         auto vertex = setup.shaders("fullscreen.vert"), fragment = setup.shaders("outline.frag");
         if (!vertex || !fragment) return tl::unexpected(vertex ? fragment.error() : vertex.error());
         rhi::RenderPipelineDescriptor descriptor{.label = "outline", .vertex = {.module = *vertex}};
@@ -41,7 +41,7 @@ passes::PassClass outline() {
         descriptor.targets.push_back({.format = setup.targets.colors.at(0)});
         auto pipeline = setup.device.createRenderPipeline(descriptor);
         if (!pipeline) return tl::unexpected(pipeline.error());
-        return passes::PassRecorder([pipeline = *pipeline](passes::PassContext& context) -> rhi::Result<void> {
+        return passes::PassRecorder([pipeline = *pipeline](passes::PassContext& context) -> Result<void> {
             auto group = context.bindGroup(pipeline.bindGroupLayout(1));
             if (!group) return tl::unexpected(group.error());
             context.raster->setPipeline(pipeline);
@@ -61,12 +61,8 @@ struct Arguments {
     bool validation = false;
 };
 
-Checked<void> run(Arguments arguments) {
-    const auto failed = [](Diagnostic diagnostic) {
-        Diagnostics all;
-        all.add(std::move(diagnostic));
-        return tl::unexpected(std::move(all));
-    };
+Result<void> run(Arguments arguments) {
+    const auto failed = [](Diagnostics faults) { return tl::unexpected<Diagnostics>(std::move(faults)); };
     hair::Library library(PELAGE_DATA_DIR);
     auto tree = library.passTree(arguments.tree);
     auto skin = library.material("skin"), blond = library.material("blond");
@@ -99,11 +95,11 @@ Checked<void> run(Arguments arguments) {
                                                ++complaints;
                                                std::fprintf(stderr, "%s\n", m.text.c_str());
                                            }});
-    if (!instance) return failed(hair::toDiagnostic(instance.error()));
+    if (!instance) return failed(instance.error());
     auto adapter = instance->requestAdapter();
-    if (!adapter) return failed(hair::toDiagnostic(adapter.error()));
+    if (!adapter) return failed(adapter.error());
     auto device = adapter->requestDevice();
-    if (!device) return failed(hair::toDiagnostic(device.error()));
+    if (!device) return failed(device.error());
     passes::PassClassRegistry classes;
     classes.add(outline());
     auto renderer = hair::Renderer::create(
@@ -114,8 +110,8 @@ Checked<void> run(Arguments arguments) {
 
     const int size = static_cast<int>(arguments.frame.width);
     if (!stbi_write_png(arguments.output.c_str(), size, size, 4, picture->display.data(), 4 * size))
-        return failed({.code = "A020", .file = arguments.output, .text = "the picture cannot be written"});
-    if (complaints > 0) return failed({.code = "A031", .text = "the validation layer found errors"});
+        return failed(Diagnostic{.code = "A020", .file = arguments.output, .text = "the picture cannot be written"});
+    if (complaints > 0) return failed(Diagnostic{.code = "A031", .text = "the validation layer found errors"});
     return {};
 }
 

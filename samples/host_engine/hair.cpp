@@ -12,16 +12,11 @@ namespace host {
 namespace {
 
 using namespace pelage;
-using pelage::toString;
 namespace vulkan = rhi::vulkan;
-
-std::string toString(const Diagnostics& faults) {
-    return faults.text();
-}
 
 template <class T>
 auto need(T result) {
-    if (!result) fatal(toString(result.error()).c_str());
+    if (!result) fatal(result.error().text().c_str());
     if constexpr (!std::is_void_v<typename T::value_type>) return std::move(*result);
 }
 

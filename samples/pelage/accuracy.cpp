@@ -55,15 +55,15 @@ void measureDistances(AccuracyResult& result, Workers& workers, const AccuracyEf
     });
 }
 
-Outcome<void> countCosts(AccuracyResult& result) {
+Result<void> countCosts(AccuracyResult& result) {
     hair::Library library(dataDirectory());
     auto parsed = library.material("brown");
-    if (!parsed) return tl::unexpected(Failure(parsed.error()));
+    if (!parsed) return tl::unexpected(parsed.error());
     for (const auto& shader : parsed->material.compile().shaders) {
         if (shader.use.name != "forward") continue;
         const auto code = hair::Renderer::shaderCode(shader.use.fragment);
         if (code.empty()) {
-            return tl::unexpected(Failure("A061: there is no shader \"" + shader.use.fragment + "\" in this build"));
+            return tl::unexpected(failure("A061", "there is no shader \"" + shader.use.fragment + "\" in this build"));
         }
         for (const hair::ModelInfo& info : hair::scatteringModels()) {
             auto constants = shader.constants;
@@ -77,12 +77,12 @@ Outcome<void> countCosts(AccuracyResult& result) {
     }
     if (result.costs.empty()) {
         return tl::unexpected(
-            Failure("A110: the material \"brown\" has no shader \"forward\" to count instructions of"));
+            failure("A110", "the material \"brown\" has no shader \"forward\" to count instructions of"));
     }
     return {};
 }
 
-Outcome<void> drawPlots(AccuracyResult& result, const fs::path& images) {
+Result<void> drawPlots(AccuracyResult& result, const fs::path& images) {
     const auto models = [](std::initializer_list<hair::ScatteringModel> wanted) {
         std::vector<const hair::ModelInfo*> found;
         for (const auto model : wanted) found.push_back(&hair::scatteringModels()[static_cast<std::size_t>(model)]);
@@ -109,7 +109,7 @@ Outcome<void> drawPlots(AccuracyResult& result, const fs::path& images) {
     return {};
 }
 
-Outcome<void> measure(AccuracyResult& result, const AccuracyOptions& options) {
+Result<void> measure(AccuracyResult& result, const AccuracyOptions& options) {
     const AccuracyEffort effort = options.quick ? quickEffort() : AccuracyEffort{};
     Workers workers;
     if (auto counted = countCosts(result); !counted) return counted;
@@ -137,7 +137,7 @@ int accuracy(const AccuracyOptions& options) {
     std::error_code failed;
     fs::create_directories(images, failed);
     if (failed) {
-        return report(Failure("A111: " + images.string() + ": the directory cannot be made: " + failed.message()));
+        return report(failure("A111", images.string() + ": the directory cannot be made: " + failed.message()));
     }
     if (options.useDevice) {
         auto gpu = openGpu(options.device);

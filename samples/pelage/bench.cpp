@@ -34,7 +34,7 @@ constexpr Contender known[] = {{"moment_lut", "brown", "momentLut"},
                                {"kajiya_kay", "kajiya_brown", ""},
                                {"standard_pbr", "pbr_brown", ""}};
 
-Outcome<std::vector<Contender>> choose(const std::vector<std::string>& names) {
+Result<std::vector<Contender>> choose(const std::vector<std::string>& names) {
     std::vector<Contender> chosen;
     for (const std::string& name : names) {
         const auto found =
@@ -42,7 +42,7 @@ Outcome<std::vector<Contender>> choose(const std::vector<std::string>& names) {
         if (found == std::end(known)) {
             std::string all;
             for (const Contender& contender : known) all += (all.empty() ? "" : ", ") + std::string(contender.name);
-            return tl::unexpected(Failure("A063: no shading model \"" + name + "\" to bench; there are " + all));
+            return tl::unexpected(failure("A063", "no shading model \"" + name + "\" to bench; there are " + all));
         }
         chosen.push_back(*found);
     }
@@ -63,13 +63,12 @@ struct Samples {
 };
 
 /// The material of a contender, on all hair of the scene where one is given.
-Outcome<materials::Material> materialOf(const Contender& contender, hair::Library& library) {
+Result<materials::Material> materialOf(const Contender& contender, hair::Library& library) {
     auto parsed = library.material(contender.material);
-    if (!parsed) return tl::unexpected(Failure(parsed.error()));
+    if (!parsed) return tl::unexpected(parsed.error());
     if (*contender.model != '\0') {
-        if (auto wrong = parsed->material.setFromText("scattering.model", contender.model)) {
-            return tl::unexpected(Failure(*wrong));
-        }
+        const Diagnostics found = parsed->material.setFromText("scattering.model", contender.model);
+        if (found.hasErrors()) return tl::unexpected(found);
     }
     return std::move(parsed->material);
 }
@@ -90,13 +89,13 @@ ModelResult summarise(const Contender& contender, const Samples& samples) {
     return result;
 }
 
-Outcome<void> measure(std::vector<Samples>& all, hair::Renderer& renderer, const hair::FrameSettings& frame,
+Result<void> measure(std::vector<Samples>& all, hair::Renderer& renderer, const hair::FrameSettings& frame,
                       std::uint32_t repeat) {
     // The first round compiles shaders and uploads; it is not counted.
     for (std::uint32_t round = 0; round <= repeat; ++round) {
         for (Samples& samples : all) {
             auto picture = renderer.render(samples.scene, frame);
-            if (!picture) return tl::unexpected(Failure(picture.error()));
+            if (!picture) return tl::unexpected(picture.error());
             if (round > 0) samples.frames.push_back(std::move(picture->report));
         }
     }

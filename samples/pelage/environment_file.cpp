@@ -30,8 +30,8 @@ namespace pelage::app {
 
 namespace {
 
-Failure unreadable(const std::string& path, const std::string& why) {
-    return Failure("A010: " + path + ": the environment cannot be read: " + why +
+Diagnostic unreadable(const std::string& path, const std::string& why) {
+    return failure("A010", path + ": the environment cannot be read: " + why +
                    "; expected an equirectangular Radiance .hdr or OpenEXR .exr picture");
 }
 
@@ -40,9 +40,9 @@ void tame(std::vector<float>& rgb) {
     for (float& value : rgb) value = std::isfinite(value) ? std::clamp(value, 0.0F, 65504.0F) : 0.0F;
 }
 
-Outcome<hair::Environment> fromHdr(const std::string& path) {
+Result<hair::Environment> fromHdr(const std::string& path) {
     const auto bytes = hair::readFile(path, std::size_t{1} << 29);
-    if (!bytes) return tl::unexpected(Failure(bytes.error()));
+    if (!bytes) return tl::unexpected(bytes.error());
     if (bytes->size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
         return tl::unexpected(unreadable(path, "the file is larger than 2 GiB"));
     }
@@ -58,7 +58,7 @@ Outcome<hair::Environment> fromHdr(const std::string& path) {
     return hair::Environment::fromEquirect(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), rgb);
 }
 
-Outcome<hair::Environment> fromExr(const std::string& path) {
+Result<hair::Environment> fromExr(const std::string& path) {
     try {
         Imf::RgbaInputFile file(path.c_str());
         const auto window = file.dataWindow();
@@ -87,13 +87,13 @@ Outcome<hair::Environment> fromExr(const std::string& path) {
 
 }  // namespace
 
-Outcome<hair::Environment> chooseEnvironment(const std::string& text) {
+Result<hair::Environment> chooseEnvironment(const std::string& text) {
     if (text == "none") return hair::Environment::none();
     if (text == "studio") return hair::Environment::studio();
     if (text.ends_with(".hdr")) return fromHdr(text);
     if (text.ends_with(".exr")) return fromExr(text);
     return tl::unexpected(
-        Failure("A011: --environment is \"" + text + "\", expected none, studio, or a path that ends in .hdr or .exr"));
+        failure("A011", "--environment is \"" + text + "\", expected none, studio, or a path that ends in .hdr or .exr"));
 }
 
 }  // namespace pelage::app

@@ -20,49 +20,57 @@ std::string withoutSeverity(const Diagnostic& diagnostic) {
     if (diagnostic.line != 0) {
         place += ":" + std::to_string(diagnostic.line) + ":" + std::to_string(diagnostic.column);
     }
-    std::string line = diagnostic.code + ": " + (place.empty() ? "" : place + ": ") + diagnostic.text;
+    std::string line = std::string(diagnostic.code.text()) + ": " + (place.empty() ? "" : place + ": ") + diagnostic.text;
+    for (const std::string& each : diagnostic.context) line += "; in " + each;
     if (!diagnostic.hint.empty()) line += "; " + diagnostic.hint;
     return line;
 }
 
+void print(const char* severity, const std::string& line) {
+    std::fprintf(stderr, "pelage: %s %s\n", severity, oneLine(line).c_str());
+}
+
 }  // namespace
 
-Failure::Failure(const Diagnostic& diagnostic) : line(withoutSeverity(diagnostic)) {
-    if (!diagnostic.file.empty()) files.push_back(diagnostic.file);
+Diagnostic failure(Code code, std::string text) {
+    return {.code = code, .text = std::move(text)};
 }
 
-Failure::Failure(const Diagnostics& diagnostics) {
-    std::size_t errors = 0;
-    for (const Diagnostic& diagnostic : diagnostics.items()) {
-        if (diagnostic.severity != Severity::Error) continue;
-        if (errors++ == 0) line = withoutSeverity(diagnostic);
-        if (!diagnostic.file.empty()) files.push_back(diagnostic.file);
-    }
+std::string lineOf(const Diagnostics& faults) {
+    const auto isError = [](const Diagnostic& each) { return each.severity == Severity::Error; };
+    const auto errors = std::count_if(faults.items().begin(), faults.items().end(), isError);
+    std::string line = withoutSeverity(faults.first());
     if (errors > 1) line += " (and " + std::to_string(errors - 1) + " more: see pelage check)";
+    return line;
 }
 
-Failure::Failure(const rhi::Error& error) : line(rhi::toString(error)) {}
+std::vector<std::string> filesOf(const Diagnostics& faults) {
+    std::vector<std::string> files;
+    for (const Diagnostic& each : faults.items()) {
+        if (each.severity == Severity::Error && !each.file.empty()) files.push_back(each.file);
+    }
+    return files;
+}
 
-int report(const Failure& failure) {
-    std::fprintf(stderr, "pelage: error %s\n", oneLine(failure.line).c_str());
+int report(const Diagnostics& faults) {
+    print("error", lineOf(faults));
     return exitFailed;
-}
-
-void warn(const std::string& text) {
-    std::fprintf(stderr, "pelage: warning %s\n", oneLine(text).c_str());
 }
 
 void warn(const Diagnostics& notes) {
     for (const Diagnostic& note : notes.items()) {
-        if (note.severity == Severity::Warning) warn(withoutSeverity(note));
+        if (note.severity == Severity::Warning) print("warning", withoutSeverity(note));
     }
+}
+
+void warn(const std::string& text) {
+    print("warning", text);
 }
 
 void tell(const Diagnostics& notes) {
     warn(notes);
     for (const Diagnostic& note : notes.items()) {
-        if (note.severity == Severity::Note)
-            std::fprintf(stderr, "pelage: note %s\n", oneLine(withoutSeverity(note)).c_str());
+        if (note.severity == Severity::Note) print("note", withoutSeverity(note));
     }
 }
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: MIT
-// Every command ends in one of three ways: 0, or one line on stderr and 2. This is that line.
+// Every command ends in one of two ways: 0, or one line on stderr and 2. This is that line.
 #pragma once
 
 #include <pelage/base/diagnostic.hpp>
-#include <pelage/rhi/error.hpp>
 
 #include <string>
 #include <vector>
@@ -13,27 +12,21 @@ namespace pelage::app {
 inline constexpr int exitOk = 0;
 inline constexpr int exitFailed = 2;
 
-/// What stopped a command. Made from any error the libraries report.
-struct Failure {
-    std::string line = {};                // without "pelage: error "
-    std::vector<std::string> files = {};  // those that the errors are in, as far as they name them
+/// A fault of the app's own.
+Diagnostic failure(Code code, std::string text);
 
-    Failure() = default;
-    explicit Failure(std::string text) : line(std::move(text)) {}
-    Failure(const Diagnostic& diagnostic);    // NOLINT(google-explicit-constructor): errors convert at every return
-    Failure(const Diagnostics& diagnostics);  // NOLINT(google-explicit-constructor)
-    Failure(const rhi::Error& error);         // NOLINT(google-explicit-constructor)
-};
-
-template <class T>
-using Outcome = tl::expected<T, Failure>;
+/// The first error without its severity, "CODE: place: text; hint", and how many more there are.
+std::string lineOf(const Diagnostics& faults);
+/// The files that the errors are in, as far as they name them.
+std::vector<std::string> filesOf(const Diagnostics& faults);
 
 /// Prints "pelage: error …" as exactly one line; gives exitFailed.
-int report(const Failure& failure);
+int report(const Diagnostics& faults);
 /// "pelage: warning …", one line each.
 void warn(const Diagnostics& notes);
 /// Notes as well: "pelage: note …".
 void tell(const Diagnostics& notes);
+/// "pelage: warning …" of a text that others made, such as the validation layer.
 void warn(const std::string& text);
 
 }  // namespace pelage::app

@@ -26,14 +26,14 @@ public:
         : gpu_(gpu), library_(library), directory_(std::move(directory)) {}
 
     /// The line to print.
-    Outcome<std::string> paint(StageOptions options, const std::string& input) {
+    Result<std::string> paint(StageOptions options, const std::string& input) {
         const auto start = std::chrono::steady_clock::now();
         options.input = input;
         auto stage = makeStage(options, library_);
         if (!stage) return tl::unexpected(stage.error());
         if (auto ready = prepare(*stage); !ready) return tl::unexpected(ready.error());
         auto picture = renderer_->render(stage->file.scene, stage->file.frame);
-        if (!picture) return tl::unexpected(Failure(picture.error()));
+        if (!picture) return tl::unexpected(picture.error());
         const std::string base = (fs::path(directory_) / stage->name).string();
         for (const char* ending : {".png", ".exr"}) {
             if (auto written = writePicture(base + ending, *picture); !written) {
@@ -46,7 +46,7 @@ public:
     }
 
 private:
-    Outcome<void> prepare(const Stage& stage) {
+    Result<void> prepare(const Stage& stage) {
         if (renderer_ && tree_ == stage.tree->file()) return {};
         auto renderer = makeRenderer(gpu_, stage.tree, false);
         if (!renderer) return tl::unexpected(renderer.error());
@@ -62,11 +62,11 @@ private:
     std::string tree_ = {};
 };
 
-Outcome<std::vector<std::string>> chosenScenes(const std::vector<std::string>& only) {
+Result<std::vector<std::string>> chosenScenes(const std::vector<std::string>& only) {
     const auto all = sceneNames();
     if (all.empty()) {
         return tl::unexpected(
-            Failure("A040: " + dataDirectory() +
+            failure("A040", dataDirectory() +
                     "/scenes has no scenes; set PELAGE_DATA to a data directory of Pelage"));
     }
     if (only.empty()) return all;
@@ -74,7 +74,7 @@ Outcome<std::vector<std::string>> chosenScenes(const std::vector<std::string>& o
         if (std::find(all.begin(), all.end(), name) != all.end()) continue;
         std::string known;
         for (const std::string& each : all) known += (known.empty() ? "" : ", ") + each;
-        return tl::unexpected(Failure("A041: the gallery has no scene \"" + name + "\"; it has " + known));
+        return tl::unexpected(failure("A041", "the gallery has no scene \"" + name + "\"; it has " + known));
     }
     return only;
 }
@@ -89,7 +89,7 @@ int gallery(const GalleryOptions& options) {
     std::error_code failed;
     fs::create_directories(options.directory, failed);
     if (failed) {
-        return report(Failure("A042: the directory " + options.directory + " cannot be made: " + failed.message()));
+        return report(failure("A042", "the directory " + options.directory + " cannot be made: " + failed.message()));
     }
     auto gpu = openGpu(options.device);
     if (!gpu) return report(gpu.error());
@@ -105,7 +105,7 @@ int gallery(const GalleryOptions& options) {
             progress.done(*line);
         } else {
             progress.clear();
-            result = report(Failure(input + ": " + line.error().line));
+            result = report(line.error().within("the scene \"" + input + "\""));
             progress.skip();
         }
     }

@@ -29,7 +29,7 @@ std::string adapterNames(const rhi::Instance& instance) {
 
 }  // namespace
 
-Outcome<Gpu> openInstance(const DeviceOptions& options, std::vector<std::string> surfaceExtensions) {
+Result<Gpu> openInstance(const DeviceOptions& options, std::vector<std::string> surfaceExtensions) {
     Gpu gpu;
     auto instance = rhi::Instance::create({
         .label = "pelage",
@@ -42,47 +42,47 @@ Outcome<Gpu> openInstance(const DeviceOptions& options, std::vector<std::string>
                 warn(message.id + ": " + message.text);
             },
     });
-    if (!instance) return tl::unexpected(Failure(instance.error()));
+    if (!instance) return tl::unexpected(instance.error());
     gpu.instance = *instance;
     return gpu;
 }
 
-Outcome<void> openDevice(Gpu& gpu, const DeviceOptions& options, const rhi::Surface& surface) {
+Result<void> openDevice(Gpu& gpu, const DeviceOptions& options, const rhi::Surface& surface) {
     auto adapter = gpu.instance.requestAdapter({.nameContains = options.name, .compatibleSurface = surface});
     if (!adapter) {
         const std::string names = adapterNames(gpu.instance);
         if (options.name.empty() || names.empty()) {
-            return tl::unexpected(
-                Failure(rhi::toString(adapter.error()) +
-                        " Install a Vulkan 1.3 driver; mesa-vulkan-drivers has one that needs no GPU"));
+            Diagnostic none = adapter.error().first();
+            none.hint = "install a Vulkan 1.3 driver; mesa-vulkan-drivers has one that needs no GPU";
+            return tl::unexpected(std::move(none));
         }
-        return tl::unexpected(Failure("A030: no device has \"" + options.name + "\" in its name; there are " + names));
+        return tl::unexpected(failure("A030", "no device has \"" + options.name + "\" in its name; there are " + names));
     }
     gpu.adapter = *adapter;
     auto device = gpu.adapter.requestDevice({.label = "pelage", .pipelines = pipelineCache()});
-    if (!device) return tl::unexpected(Failure(device.error()));
+    if (!device) return tl::unexpected(device.error());
     gpu.device = *device;
     return {};
 }
 
-Outcome<Gpu> openGpu(const DeviceOptions& options) {
+Result<Gpu> openGpu(const DeviceOptions& options) {
     auto gpu = openInstance(options);
     if (!gpu) return gpu;
     if (auto opened = openDevice(*gpu, options); !opened) return tl::unexpected(opened.error());
     return gpu;
 }
 
-Outcome<hair::Renderer> makeRenderer(const Gpu& gpu, const std::shared_ptr<const passes::PassTree>& tree,
+Result<hair::Renderer> makeRenderer(const Gpu& gpu, const std::shared_ptr<const passes::PassTree>& tree,
                                      bool measure) {
     auto renderer = hair::Renderer::create({.device = gpu.device, .tree = tree, .measure = measure});
-    if (!renderer) return tl::unexpected(Failure(renderer.error()));
+    if (!renderer) return tl::unexpected(renderer.error());
     return std::move(*renderer);
 }
 
 int finish(const Gpu& gpu) {
     const int errors = gpu.validationErrors->load();
     if (errors == 0) return exitOk;
-    return report(Failure("A031: the validation layer reported " + std::to_string(errors) + " errors, listed above"));
+    return report(failure("A031", "the validation layer reported " + std::to_string(errors) + " errors, listed above"));
 }
 
 }  // namespace pelage::app

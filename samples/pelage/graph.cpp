@@ -24,9 +24,9 @@ struct Drawn {
     int result = exitOk;  // of the device
 };
 
-Outcome<void> checkPath(const std::string& path) {
+Result<void> checkPath(const std::string& path) {
     if (path.ends_with(".html") || path.ends_with(".dot")) return {};
-    return tl::unexpected(Failure("A120: \"" + path + "\" is neither .html nor .dot; name one of them"));
+    return tl::unexpected(failure("A120", "\"" + path + "\" is neither .html nor .dot; name one of them"));
 }
 
 std::vector<std::pair<std::string, std::string>> settingsOf(const passes::PassTree& tree,
@@ -43,24 +43,24 @@ std::vector<std::pair<std::string, std::string>> settingsOf(const passes::PassTr
     return shown;
 }
 
-Outcome<Drawn> compiled(const GraphOptions& options, const Size& size, hair::Library& library) {
+Result<Drawn> compiled(const GraphOptions& options, const Size& size, hair::Library& library) {
     auto tree = library.passTree(options.input);
-    if (!tree) return tl::unexpected(Failure(tree.error()));
+    if (!tree) return tl::unexpected(tree.error());
     passes::HostDescription host =
         generousHost(**tree, size.given() ? rhi::Extent3D{size.width, size.height, 1} : rhi::Extent3D{1920, 1080, 1});
     for (const std::string& text : options.settings) {
         auto assignment = parseAssignment(text, "--setting");
         if (!assignment) return tl::unexpected(assignment.error());
         auto value = hair::parseSetting(**tree, assignment->first, assignment->second);
-        if (!value) return tl::unexpected(Failure(value.error()));
+        if (!value) return tl::unexpected(value.error());
         host.settings[assignment->first] = *value;
     }
     auto plan = (*tree)->compile(host);
-    if (!plan) return tl::unexpected(Failure(plan.error()));
+    if (!plan) return tl::unexpected(plan.error());
     return Drawn{std::move(*plan), {.title = (*tree)->name(), .settings = settingsOf(**tree, host.settings)}};
 }
 
-Outcome<Drawn> measured(const GraphOptions& options, hair::Library& library) {
+Result<Drawn> measured(const GraphOptions& options, hair::Library& library) {
     auto stage = makeStage(
         {.input = options.measure, .size = options.size, .frame = options.input, .settings = options.settings},
         library);
@@ -73,7 +73,7 @@ Outcome<Drawn> measured(const GraphOptions& options, hair::Library& library) {
     Drawn drawn;
     for (int frame = 0; frame < 2; ++frame) {
         auto picture = renderer->render(stage->file.scene, stage->file.frame);
-        if (!picture) return tl::unexpected(Failure(picture.error()));
+        if (!picture) return tl::unexpected(picture.error());
         drawn.page.measured = std::move(picture->report.passes);
         drawn.page.barriers = picture->report.barriers;
     }

@@ -10,7 +10,7 @@ namespace pelage::app {
 int info(const std::vector<std::string>& files) {
     for (const std::string& file : files) {
         auto asset = hair::loadAsset(file);
-        if (!asset) return report(Failure(asset.error()));
+        if (!asset) return report(asset.error());
         std::fputs(hair::describe(*asset, file).c_str(), stdout);
     }
     return exitOk;

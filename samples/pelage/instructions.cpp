@@ -81,7 +81,7 @@ std::uint32_t countInFunctions(std::span<const std::uint32_t> code) {
 
 }  // namespace
 
-Outcome<std::uint32_t> countInstructions(std::span<const std::uint32_t> code,
+Result<std::uint32_t> countInstructions(std::span<const std::uint32_t> code,
                                          const std::vector<rhi::ConstantEntry>& constants) {
     const SpecConstants known = findSpecConstants(code);
     std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> bits;
@@ -106,7 +106,7 @@ Outcome<std::uint32_t> countInstructions(std::span<const std::uint32_t> code,
         .RegisterPass(spvtools::CreateCompactIdsPass());
     std::vector<std::uint32_t> optimized;
     if (!optimizer.Run(code.data(), code.size(), &optimized)) {
-        return tl::unexpected(Failure("A060: SPIRV-Tools cannot optimise the shader: " + problem));
+        return tl::unexpected(failure("A060", "SPIRV-Tools cannot optimise the shader: " + problem));
     }
     return countInFunctions(optimized);
 }

@@ -30,9 +30,10 @@ LiveStage::Polled LiveStage::poll() {
     if (auto taken = take(); !taken) {
         // What is wrong may be mended in a file that the last good version did not have, or that is not there yet.
         std::vector<std::string> files = stage_.watched;
-        files.insert(files.end(), taken.error().files.begin(), taken.error().files.end());
+        const std::vector<std::string> faulty = filesOf(taken.error());
+        files.insert(files.end(), faulty.begin(), faulty.end());
         watch_.set(files, true);
-        Polled kept{.change = Change::Kept, .error = taken.error().line};
+        Polled kept{.change = Change::Kept, .error = taken.error()};
         kept.notes.add(
             {.severity = Severity::Note, .code = "A130", .text = "keeping the version of " + clockText(taken_)});
         return kept;
@@ -42,7 +43,7 @@ LiveStage::Polled LiveStage::poll() {
     return {.change = Change::Taken, .notes = stage_.file.notes};
 }
 
-Outcome<void> LiveStage::take() {
+Result<void> LiveStage::take() {
     hair::Library library(dataDirectory());  // a new one: it reads each type once
     auto stage = makeStage(options_, library);
     if (!stage) return tl::unexpected(stage.error());
@@ -53,7 +54,7 @@ Outcome<void> LiveStage::take() {
     stage->file.scene.camera = stage_.file.scene.camera;
     // Much is known only once a frame is drawn: whether the tree can be built for this host, shaders, pipelines.
     if (auto drawn = renderer->render(stage->file.scene, stage->file.frame); !drawn)
-        return tl::unexpected(Failure(drawn.error()));
+        return tl::unexpected(drawn.error());
     stage_ = std::move(*stage);
     renderer_ = std::move(*renderer);
     return {};

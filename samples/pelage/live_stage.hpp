@@ -16,7 +16,7 @@ namespace pelage::app {
 
 class LiveStage {
 public:
-    using MakeRenderer = std::function<Outcome<hair::Renderer>(const std::shared_ptr<const passes::PassTree>&)>;
+    using MakeRenderer = std::function<Result<hair::Renderer>(const std::shared_ptr<const passes::PassTree>&)>;
 
     /// `stage` was made of `options`; `make` gives a renderer on the same device each time.
     LiveStage(StageOptions options, Stage stage, hair::Renderer renderer, MakeRenderer make);
@@ -28,7 +28,7 @@ public:
     };
     struct Polled {
         Change change = Change::None;
-        std::string error = {};  // of Kept: one line, without "pelage: error "
+        Diagnostics error = {};  // of Kept: why
         Diagnostics notes = {};  // of Taken: warnings; of Kept: A130, which version is kept
     };
     /// Looks at the files; when one changed, reads everything again and draws a frame of the size that is shown.
@@ -38,7 +38,7 @@ public:
     hair::Renderer& renderer() { return renderer_; }
 
 private:
-    Outcome<void> take();
+    Result<void> take();
 
     StageOptions options_;
     Stage stage_;

@@ -195,7 +195,7 @@ int run(int argc, char** argv) {
     } catch (const CLI::Success& help) {
         return app.exit(help);  // --help and --version print to stdout
     } catch (const CLI::ParseError& error) {
-        return report(Failure(std::string("A000: ") + error.what() + "; see pelage --help"));
+        return report(failure("A000", std::string(error.what()) + "; see pelage --help"));
     }
     return result;
 }
@@ -208,6 +208,6 @@ int main(int argc, char** argv) {
     try {
         return pelage::app::run(argc, argv);
     } catch (const std::exception& error) {
-        return pelage::app::report(pelage::app::Failure(std::string("A099: ") + error.what()));
+        return pelage::app::report(pelage::app::failure("A099", error.what()));
     }
 }

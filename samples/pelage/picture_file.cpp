@@ -38,8 +38,8 @@ float toHalfRange(float value) {
     return value > largest ? largest : value < -largest ? -largest : value;
 }
 
-Failure notWritten(const std::string& path, const std::string& why) {
-    return Failure("A020: " + path + ": the picture cannot be written: " + why);
+Diagnostic notWritten(const std::string& path, const std::string& why) {
+    return failure("A020", path + ": the picture cannot be written: " + why);
 }
 
 void writePng(const std::string& path, const hair::Picture& picture) {
@@ -75,9 +75,9 @@ void writeExr(const std::string& path, const hair::Picture& picture) {
 
 }  // namespace
 
-Outcome<void> checkPicturePath(const std::string& path) {
+Result<void> checkPicturePath(const std::string& path) {
     if (!path.ends_with(".png") && !path.ends_with(".exr")) {
-        return tl::unexpected(Failure("A021: the output \"" + path + "\" ends in neither .png nor .exr"));
+        return tl::unexpected(failure("A021", "the output \"" + path + "\" ends in neither .png nor .exr"));
     }
     const fs::path directory = fs::path(path).parent_path();
     std::error_code ignored;
@@ -87,7 +87,7 @@ Outcome<void> checkPicturePath(const std::string& path) {
     return {};
 }
 
-Outcome<void> writePicture(const std::string& path, const hair::Picture& picture) {
+Result<void> writePicture(const std::string& path, const hair::Picture& picture) {
     const std::size_t texels = std::size_t{picture.width} * picture.height * 4;
     const bool png = path.ends_with(".png");
     if (png ? picture.display.size() != texels : picture.linear.size() != texels) {

@@ -104,21 +104,21 @@ std::string svgText(const Drawing& drawing) {
     return text + "</svg>\n";
 }
 
-Outcome<void> checkDrawingPath(const std::string& path) {
+Result<void> checkDrawingPath(const std::string& path) {
     if (path.ends_with(".png")) return checkPicturePath(path);
     if (!path.ends_with(".svg")) {
-        return tl::unexpected(Failure("A096: the plot \"" + path + "\" ends in neither .svg nor .png"));
+        return tl::unexpected(failure("A096", "the plot \"" + path + "\" ends in neither .svg nor .png"));
     }
     const std::filesystem::path directory = std::filesystem::path(path).parent_path();
     std::error_code ignored;
     if (!directory.empty() && !std::filesystem::is_directory(directory, ignored)) {
-        return tl::unexpected(Failure("A094: " + path + ": the file cannot be written: there is no directory " +
+        return tl::unexpected(failure("A094", path + ": the file cannot be written: there is no directory " +
                                       directory.string() + "; make it first"));
     }
     return {};
 }
 
-Outcome<void> writeDrawing(const std::string& path, const Drawing& drawing) {
+Result<void> writeDrawing(const std::string& path, const Drawing& drawing) {
     if (!path.ends_with(".png")) return writeTextFile(path, svgText(drawing));
     hair::Picture picture{.width = drawing.width(), .height = drawing.height()};
     picture.display = rasterised(drawing);

@@ -11,7 +11,7 @@ std::span<const std::uint32_t> embeddedShader(std::string_view name);
 
 namespace {
 
-rhi::Result<rhi::ShaderModule> module(const rhi::Device& device, const char* file) {
+Result<rhi::ShaderModule> module(const rhi::Device& device, const char* file) {
     const auto code = shaders::embeddedShader(file);
     return device.createShaderModule({.label = file, .code = {code.begin(), code.end()}});
 }
@@ -22,12 +22,12 @@ bool isSrgb(rhi::TextureFormat format) {
 
 }  // namespace
 
-Outcome<void> Presenter::makePipeline(rhi::TextureFormat format) {
+Result<void> Presenter::makePipeline(rhi::TextureFormat format) {
     if (pipeline_ && format_ == format) return {};
     auto vertex = module(device_, "present.vert");
-    if (!vertex) return tl::unexpected(Failure(vertex.error()));
+    if (!vertex) return tl::unexpected(vertex.error());
     auto fragment = module(device_, "present.frag");
-    if (!fragment) return tl::unexpected(Failure(fragment.error()));
+    if (!fragment) return tl::unexpected(fragment.error());
     auto pipeline = device_.createRenderPipeline({
         .label = "present",
         .vertex = {.module = *vertex},
@@ -35,40 +35,40 @@ Outcome<void> Presenter::makePipeline(rhi::TextureFormat format) {
                                            .constants = {{.name = "decodeSrgb", .value = isSrgb(format) ? 1.0 : 0.0}}},
         .targets = {{.format = format}},
     });
-    if (!pipeline) return tl::unexpected(Failure(pipeline.error()));
+    if (!pipeline) return tl::unexpected(pipeline.error());
     pipeline_ = *pipeline;
     format_ = format;
     return {};
 }
 
-Outcome<rhi::Texture> Presenter::readable(rhi::CommandEncoder& encoder, const rhi::Texture& picture) {
+Result<rhi::Texture> Presenter::readable(rhi::CommandEncoder& encoder, const rhi::Texture& picture) {
     if (rhi::contains(picture.descriptor().usage, rhi::TextureUsage::TextureBinding)) return picture;
     if (!copy_ || copy_.size() != picture.size() || copy_.format() != picture.format()) {
         auto copy = device_.createTexture({.label = "present copy",
                                            .size = picture.size(),
                                            .format = picture.format(),
                                            .usage = rhi::TextureUsage::CopyDst | rhi::TextureUsage::TextureBinding});
-        if (!copy) return tl::unexpected(Failure(copy.error()));
+        if (!copy) return tl::unexpected(copy.error());
         copy_ = *copy;
     }
     encoder.copyTextureToTexture({.texture = picture}, {.texture = copy_}, picture.size());
     return copy_;
 }
 
-Outcome<void> Presenter::encode(rhi::CommandEncoder& encoder, const rhi::Texture& picture, const rhi::Texture& window) {
+Result<void> Presenter::encode(rhi::CommandEncoder& encoder, const rhi::Texture& picture, const rhi::Texture& window) {
     if (!picture)
-        return tl::unexpected(Failure("A070: the pass tree exports no \"LdrColor\", so nothing can be shown"));
+        return tl::unexpected(failure("A070", "the pass tree exports no \"LdrColor\", so nothing can be shown"));
     if (auto made = makePipeline(window.format()); !made) return made;
     auto source = readable(encoder, picture);
     if (!source) return tl::unexpected(source.error());
     auto sourceView = source->createView();
-    if (!sourceView) return tl::unexpected(Failure(sourceView.error()));
+    if (!sourceView) return tl::unexpected(sourceView.error());
     auto windowView = window.createView();
-    if (!windowView) return tl::unexpected(Failure(windowView.error()));
+    if (!windowView) return tl::unexpected(windowView.error());
     auto group = device_.createBindGroup({.label = "present",
                                           .layout = pipeline_.bindGroupLayout(0),
                                           .entries = {{.binding = 0, .resource = *sourceView}}});
-    if (!group) return tl::unexpected(Failure(group.error()));
+    if (!group) return tl::unexpected(group.error());
 
     auto pass = encoder.beginRenderPass(
         {.label = "present", .colorAttachments = {{.view = *windowView, .loadOp = rhi::LoadOp::Clear}}});

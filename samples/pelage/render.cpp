@@ -25,7 +25,7 @@ int render(const RenderOptions& options) {
     auto renderer = makeRenderer(*gpu, stage->tree, options.report);
     if (!renderer) return report(renderer.error());
     auto picture = renderer->render(stage->file.scene, stage->file.frame);
-    if (!picture) return report(Failure(picture.error()));
+    if (!picture) return report(picture.error());
 
     warn(stage->file.notes);
     warn(picture->report.notes);

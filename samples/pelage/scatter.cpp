@@ -16,20 +16,20 @@ namespace {
 
 constexpr int exitSomeRowsBad = 1;
 
-Failure contradiction(const std::string& what) {
-    return Failure("A095: " + what + "; see pelage scatter --help");
+Diagnostic contradiction(const std::string& what) {
+    return failure("A095", what + "; see pelage scatter --help");
 }
 
-Outcome<const hair::ModelInfo*> findModel(const std::string& id) {
+Result<const hair::ModelInfo*> findModel(const std::string& id) {
     if (const hair::ModelInfo* info = hair::findScatteringModel(id)) return info;
     std::string known;
     for (const hair::ModelInfo& info : hair::scatteringModels()) {
         known += (known.empty() ? "" : ", ") + std::string(info.id);
     }
-    return tl::unexpected(Failure("A097: there is no scattering model \"" + id + "\"; known: " + known));
+    return tl::unexpected(failure("A097", "there is no scattering model \"" + id + "\"; known: " + known));
 }
 
-Outcome<ScatterMethod> methodOf(const ScatterOptions& options) {
+Result<ScatterMethod> methodOf(const ScatterOptions& options) {
     if (options.exact == !options.model.empty()) {
         return tl::unexpected(contradiction("expected --exact or --model ID, and not both"));
     }
@@ -44,12 +44,14 @@ Outcome<ScatterMethod> methodOf(const ScatterOptions& options) {
     const auto model = findModel(options.model);
     if (!model) return tl::unexpected(model.error());
     if (options.published && !(*model)->corrected) {
-        warn("A098: --published changes nothing: no error is known in the source of " + options.model);
+        warn(Diagnostic{.severity = Severity::Warning,
+                        .code = "A098",
+                        .text = "--published changes nothing: no error is known in the source of " + options.model});
     }
     return ScatterMethod{*model, options.published, options.precision == "float"};
 }
 
-Outcome<std::vector<std::optional<RowLobes>>> onDevice(const ScatterOptions& options, const ScatterMethod& method,
+Result<std::vector<std::optional<RowLobes>>> onDevice(const ScatterOptions& options, const ScatterMethod& method,
                                                        std::span<const ScatterRow> rows) {
     std::vector<ScatterQuery> queries;
     for (const ScatterRow& row : rows) {
@@ -105,7 +107,7 @@ int writeRows(const ScatterOptions& options) {
     return read->faults.empty() ? exitOk : exitSomeRowsBad;
 }
 
-Outcome<ScatterPlot> plotOf(const ScatterOptions& options) {
+Result<ScatterPlot> plotOf(const ScatterOptions& options) {
     ScatterPlot plot{.published = options.published};
     plot.fiber = {.thetaO = options.thetaO,
                   .eta = options.eta,

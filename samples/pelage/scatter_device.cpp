@@ -7,7 +7,7 @@
 
 namespace pelage::app {
 
-Outcome<std::vector<hair::ScatteredLobes>> scatterOnDevice(const DeviceOptions& options, hair::ScatteringModel model,
+Result<std::vector<hair::ScatteredLobes>> scatterOnDevice(const DeviceOptions& options, hair::ScatteringModel model,
                                                            bool published, std::span<const ScatterQuery> queries) {
     auto gpu = openGpu(options);
     if (!gpu) return tl::unexpected(gpu.error());
@@ -15,9 +15,9 @@ Outcome<std::vector<hair::ScatteredLobes>> scatterOnDevice(const DeviceOptions& 
     rows.reserve(queries.size());
     for (const ScatterQuery& query : queries) rows.push_back({query.fiber, query.directions});
     auto results = hair::ScatterCompute(gpu->device).evaluate(model, published, rows);
-    if (!results) return tl::unexpected(Failure(results.error()));
+    if (!results) return tl::unexpected(results.error());
     if (finish(*gpu) != exitOk)
-        return tl::unexpected(Failure("A031: the validation layer reported errors, listed above"));
+        return tl::unexpected(failure("A031", "the validation layer reported errors, listed above"));
     return std::move(*results);
 }
 

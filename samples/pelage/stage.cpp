@@ -19,7 +19,7 @@ bool isSceneFile(const std::string& path) {
     return path.ends_with(".json");
 }
 
-Outcome<hair::SceneFile> loadInput(const StageOptions& options, const Size& size, hair::Library& library,
+Result<hair::SceneFile> loadInput(const StageOptions& options, const Size& size, hair::Library& library,
                                    std::string& path) {
     std::error_code ignored;
     path = options.input;
@@ -32,45 +32,44 @@ Outcome<hair::SceneFile> loadInput(const StageOptions& options, const Size& size
             std::string hint = "give a .scene.json, .glb, .gltf, .tfx or .hair file, or one of the shipped scenes";
             if (!nearest.empty()) hint = "did you mean \"" + std::string(nearest) + "\"?";
             return tl::unexpected(
-                Failure("A002: there is no file and no shipped scene \"" + options.input + "\"; " + hint));
+                failure("A002", "there is no file and no shipped scene \"" + options.input + "\"; " + hint));
         }
     }
     const float aspect =
         static_cast<float>(size.given() ? size.width : 1) / static_cast<float>(size.given() ? size.height : 1);
     auto loaded = isSceneFile(path) ? hair::loadScene(path, library)
                                     : hair::sceneFromAsset(path, options.material, aspect, library);
-    if (!loaded) return tl::unexpected(Failure(loaded.error()));
+    if (!loaded) return tl::unexpected(loaded.error());
     return std::move(*loaded);
 }
 
-Outcome<void> applyOverrides(hair::Scene& scene, const std::vector<std::string>& overrides, Diagnostics& notes) {
+Result<void> applyOverrides(hair::Scene& scene, const std::vector<std::string>& overrides, Diagnostics& notes) {
     for (const std::string& text : overrides) {
         auto assignment = parseAssignment(text, "--set");
         if (!assignment) return tl::unexpected(assignment.error());
         for (hair::Object& object : scene.objects) {
             if (!object.geometry->isHair) continue;
-            auto diagnostic = object.material.setFromText(assignment->first, assignment->second);
-            if (!diagnostic) continue;
-            if (diagnostic->severity == Severity::Error) return tl::unexpected(Failure(*diagnostic));
-            notes.add(*diagnostic);
+            const Diagnostics found = object.material.setFromText(assignment->first, assignment->second);
+            if (found.hasErrors()) return tl::unexpected(found);
+            notes.append(found);
         }
     }
     return {};
 }
 
-Outcome<void> applySettings(const std::vector<std::string>& settings, const passes::PassTree& tree,
+Result<void> applySettings(const std::vector<std::string>& settings, const passes::PassTree& tree,
                             hair::FrameSettings& frame) {
     for (const std::string& text : settings) {
         auto assignment = parseAssignment(text, "--setting");
         if (!assignment) return tl::unexpected(assignment.error());
         auto value = hair::parseSetting(tree, assignment->first, assignment->second);
-        if (!value) return tl::unexpected(Failure(value.error()));
+        if (!value) return tl::unexpected(value.error());
         frame.settings[assignment->first] = *value;
     }
     return {};
 }
 
-Outcome<void> applyView(const StageOptions& options, hair::SceneFile& file) {
+Result<void> applyView(const StageOptions& options, hair::SceneFile& file) {
     hair::Scene& scene = file.scene;
     if (!options.background.empty()) {
         auto color = parseColor(options.background, "--background");
@@ -99,17 +98,17 @@ Outcome<void> applyView(const StageOptions& options, hair::SceneFile& file) {
 
 }  // namespace
 
-Outcome<void> applyMaterial(hair::Scene& scene, const std::string& material, hair::Library& library) {
+Result<void> applyMaterial(hair::Scene& scene, const std::string& material, hair::Library& library) {
     if (material.empty()) return {};
     auto parsed = library.material(material);
-    if (!parsed) return tl::unexpected(Failure(parsed.error()));
+    if (!parsed) return tl::unexpected(parsed.error());
     for (hair::Object& object : scene.objects) {
         if (object.geometry->isHair) object.material = parsed->material;
     }
     return {};
 }
 
-Outcome<Stage> makeStage(const StageOptions& options, hair::Library& library) {
+Result<Stage> makeStage(const StageOptions& options, hair::Library& library) {
     Size size;
     if (!options.size.empty()) {
         auto parsed = parseSize(options.size);
@@ -139,7 +138,7 @@ Outcome<Stage> makeStage(const StageOptions& options, hair::Library& library) {
     }
     if (!options.frame.empty()) stage.file.passTree = options.frame;
     auto tree = library.passTree(stage.file.passTree);
-    if (!tree) return tl::unexpected(Failure(tree.error()));
+    if (!tree) return tl::unexpected(tree.error());
     stage.tree = *tree;
     stage.file.notes.append(stage.tree->warnings());
     if (auto done = applySettings(options.settings, *stage.tree, stage.file.frame); !done) {

@@ -13,32 +13,32 @@ namespace fs = std::filesystem;
 
 namespace {
 
-Failure notWritten(const std::string& path, const std::string& why) {
-    return Failure("A094: " + path + ": the file cannot be written: " + why);
+Diagnostic notWritten(const std::string& path, const std::string& why) {
+    return failure("A094", path + ": the file cannot be written: " + why);
 }
 
-Outcome<void> writeOut(const std::string& text) {
+Result<void> writeOut(const std::string& text) {
     const bool whole = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
-    if (!whole) return tl::unexpected(Failure("A094: standard output takes no more; was the pipe closed?"));
+    if (!whole) return tl::unexpected(failure("A094", "standard output takes no more; was the pipe closed?"));
     return {};
 }
 
 }  // namespace
 
-Outcome<std::string> readTextFile(const std::string& path) {
+Result<std::string> readTextFile(const std::string& path) {
     if (path == "-") return std::string(std::istreambuf_iterator<char>(std::cin), {});
     std::error_code ignored;
     if (fs::is_directory(path, ignored)) {
-        return tl::unexpected(Failure("A090: " + path + " is a directory; expected a file, or - for standard input"));
+        return tl::unexpected(failure("A090", path + " is a directory; expected a file, or - for standard input"));
     }
     std::ifstream file(path, std::ios::binary);
-    if (!file) return tl::unexpected(Failure("A090: " + path + ": the file cannot be opened; check the path"));
+    if (!file) return tl::unexpected(failure("A090", path + ": the file cannot be opened; check the path"));
     std::string text(std::istreambuf_iterator<char>(file), {});
-    if (file.bad()) return tl::unexpected(Failure("A090: " + path + ": the file cannot be read to its end"));
+    if (file.bad()) return tl::unexpected(failure("A090", path + ": the file cannot be read to its end"));
     return text;
 }
 
-Outcome<void> writeTextFile(const std::string& path, const std::string& text) {
+Result<void> writeTextFile(const std::string& path, const std::string& text) {
     if (path == "-") return writeOut(text);
     std::error_code unknown;
     if (fs::exists(path, unknown) && !fs::is_regular_file(path, unknown)) {

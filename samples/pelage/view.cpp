@@ -34,7 +34,7 @@ public:
           presenter_(gpu_.device),
           orbit_(live_.stage().file.scene.camera) {}
 
-    Outcome<void> run() {
+    Result<void> run() {
         bool stale = true;
         std::uint32_t drawn = 0;
         while (!window_.closed()) {
@@ -53,7 +53,7 @@ public:
             if (input.save) save();
             if (options_.frames != 0 && drawn >= options_.frames) break;
         }
-        if (auto idle = gpu_.device.waitIdle(); !idle) return tl::unexpected(Failure(idle.error()));
+        if (auto idle = gpu_.device.waitIdle(); !idle) return tl::unexpected(idle.error());
         return {};
     }
 
@@ -70,7 +70,7 @@ private:
     /// True when files changed and can be shown. When they cannot, why is said once, and the picture stays.
     bool reload() {
         const LiveStage::Polled polled = live_.poll();
-        if (polled.change == LiveStage::Change::Kept) report(Failure(polled.error));
+        if (polled.change == LiveStage::Change::Kept) report(polled.error);
         tell(polled.notes);
         if (polled.change != LiveStage::Change::Taken) return false;
         std::printf("read again: %s\n", options_.stage.input.c_str());
@@ -79,15 +79,15 @@ private:
     }
 
     /// False when the window must be configured again.
-    Outcome<bool> draw(const rhi::Extent3D& size) {
+    Result<bool> draw(const rhi::Extent3D& size) {
         if (size != configured_) {
             if (auto done = surface_.configure(gpu_.device, {.size = size}); !done) {
-                return tl::unexpected(Failure(done.error()));
+                return tl::unexpected(done.error());
             }
             configured_ = size;
         }
         auto texture = surface_.getCurrentTexture();
-        if (!texture) return tl::unexpected(Failure(texture.error()));
+        if (!texture) return tl::unexpected(texture.error());
         if (!*texture) return configured_ = {0, 0, 0}, false;
 
         Stage& stage = live_.stage();
@@ -96,19 +96,19 @@ private:
         stage.file.frame.height = size.height;
         auto encoder = gpu_.device.createCommandEncoder("view");
         if (auto done = live_.renderer().encode(stage.file.scene, stage.file.frame, encoder); !done) {
-            return tl::unexpected(Failure(done.error()));
+            return tl::unexpected(done.error());
         }
         if (auto done = presenter_.encode(encoder, live_.renderer().displayTexture(), *texture); !done) {
             return tl::unexpected(done.error());
         }
         auto commands = encoder.finish();
-        if (!commands) return tl::unexpected(Failure(commands.error()));
+        if (!commands) return tl::unexpected(commands.error());
         auto submission = gpu_.device.queue().submit(*commands);
-        if (!submission) return tl::unexpected(Failure(submission.error()));
+        if (!submission) return tl::unexpected(submission.error());
         auto presented = surface_.present();
-        if (!presented) return tl::unexpected(Failure(presented.error()));
+        if (!presented) return tl::unexpected(presented.error());
         // One frame at a time: a viewer that runs ahead of a slow device answers late.
-        if (auto done = gpu_.device.queue().wait(*submission); !done) return tl::unexpected(Failure(done.error()));
+        if (auto done = gpu_.device.queue().wait(*submission); !done) return tl::unexpected(done.error());
         if (!*presented) configured_ = {0, 0, 0};
         return *presented;
     }
@@ -121,7 +121,7 @@ private:
             path = stage.name + "-" + std::to_string(number) + ".png";
         }
         auto picture = live_.renderer().render(stage.file.scene, stage.file.frame);
-        if (!picture) return void(report(Failure(picture.error())));
+        if (!picture) return void(report(picture.error()));
         if (auto written = writePicture(path, *picture); !written) return void(report(written.error()));
         std::printf("saved %s\n", path.c_str());
         std::fflush(stdout);

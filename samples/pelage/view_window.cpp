@@ -59,20 +59,20 @@ void listen(GLFWwindow* window) {
 
 }  // namespace
 
-Outcome<Window> Window::open(const std::string& title, std::uint32_t width, std::uint32_t height) {
+Result<Window> Window::open(const std::string& title, std::uint32_t width, std::uint32_t height) {
     if (glfwInit() != GLFW_TRUE) {
-        return tl::unexpected(Failure("A080: no window can be opened: " + glfwReason() +
+        return tl::unexpected(failure("A080", "no window can be opened: " + glfwReason() +
                                       "; without a display use pelage render or pelage gallery"));
     }
     Window made;
     made.state_ = std::make_shared<State>();
     if (glfwVulkanSupported() != GLFW_TRUE) {
-        return tl::unexpected(Failure("A081: the windows of this display cannot show Vulkan: " + glfwReason()));
+        return tl::unexpected(failure("A081", "the windows of this display cannot show Vulkan: " + glfwReason()));
     }
     glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
     made.state_->window =
         glfwCreateWindow(static_cast<int>(width), static_cast<int>(height), title.c_str(), nullptr, nullptr);
-    if (!made.state_->window) return tl::unexpected(Failure("A082: the window cannot be made: " + glfwReason()));
+    if (!made.state_->window) return tl::unexpected(failure("A082", "the window cannot be made: " + glfwReason()));
     glfwSetWindowUserPointer(made.state_->window, made.state_.get());
     listen(made.state_->window);
     return made;
@@ -84,11 +84,11 @@ std::vector<std::string> Window::surfaceExtensions() const {
     return names ? std::vector<std::string>(names, names + count) : std::vector<std::string>();
 }
 
-Outcome<rhi::Surface> Window::createSurface(const rhi::Instance& instance) const {
+Result<rhi::Surface> Window::createSurface(const rhi::Instance& instance) const {
     VkSurfaceKHR surface = VK_NULL_HANDLE;
     const VkResult made = glfwCreateWindowSurface(rhi::vulkan::instance(instance), state_->window, nullptr, &surface);
     if (made != VK_SUCCESS) {
-        return tl::unexpected(Failure("A083: the window's surface cannot be made: " + glfwReason()));
+        return tl::unexpected(failure("A083", "the window's surface cannot be made: " + glfwReason()));
     }
     return rhi::vulkan::adoptSurface(instance, surface);
 }

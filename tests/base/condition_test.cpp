@@ -54,7 +54,7 @@ TEST(Condition, EvaluatesWithTheUsualPrecedence) {
                                                       {"false || a.count == 3", true}};
     for (const auto& [text, expected] : rows) {
         const auto condition = Condition::parse(text, names);
-        ASSERT_TRUE(condition) << text << ": " << toString(condition.error());
+        ASSERT_TRUE(condition) << text << ": " << condition.error().text();
         EXPECT_EQ(condition->evaluate(value), expected) << text;
     }
 }
@@ -100,9 +100,9 @@ TEST(Condition, FaultsHaveCodeAndColumn) {
     for (const Row& row : rows) {
         const auto condition = Condition::parse(row.text, names);
         ASSERT_FALSE(condition) << row.text;
-        EXPECT_EQ(condition.error().code, row.code) << row.text << ": " << condition.error().text;
-        EXPECT_EQ(condition.error().column, row.column) << row.text << ": " << condition.error().text;
-        EXPECT_EQ(condition.error().hint, row.hint) << row.text;
+        EXPECT_EQ(condition.error().first().code.text(), row.code) << row.text << ": " << condition.error().first().text;
+        EXPECT_EQ(condition.error().first().column, row.column) << row.text << ": " << condition.error().first().text;
+        EXPECT_EQ(condition.error().first().hint, row.hint) << row.text;
     }
 }
 
@@ -117,7 +117,7 @@ TEST(Condition, SaysWhatItReads) {
 TEST(Condition, WithoutAFunctionNothingCanBeCalled) {
     const auto condition = Condition::parse("host.has('Sky')", {.names = names.names});
     ASSERT_FALSE(condition);
-    EXPECT_EQ(condition.error().code, "E002");
+    EXPECT_EQ(condition.error().first().code, Code("E002"));
 }
 
 TEST(Condition, HostileTextsEnd) {

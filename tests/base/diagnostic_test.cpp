@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
+
+#include <set>
+#include <string_view>
 #include <pelage/base/diagnostic.hpp>
 
 using namespace pelage;
@@ -15,7 +18,7 @@ TEST(Diagnostic, IsOneLineOfJsonWhateverTheTextHolds) {
     EXPECT_EQ(toJson({Severity::Error, "J004", "a.json", 3, 7, "key \"x\" given twice", "first at 2:5"}),
               R"({"file":"a.json","line":3,"column":7,"severity":"error","code":"J004",)"
               R"("text":"key \"x\" given twice","hint":"first at 2:5",)"
-              R"("related":[{"file":"a.json","line":2,"column":5}]})");
+              R"("context":[],"related":[{"file":"a.json","line":2,"column":5}]})");
     const std::string odd =
         toJson({Severity::Note, "V007", "a\\b", 0, 0, "line\nbreak \x01 \xff \xc3\xa9 \xed\xa0\x80", ""});
     EXPECT_EQ(
@@ -41,19 +44,50 @@ TEST(Diagnostic, PlacesInItsSentencesAreRelated) {
     }
 }
 
+TEST(Diagnostic, SaysWhatWasBeingDoneFromTheOutside) {
+    const Diagnostics inner(Diagnostic{.code = "R012", .text = "no", .context = {"draw #3", "RenderPass \"forward\""}});
+    const Diagnostics outer = inner.within("frame \"main\"");
+    EXPECT_EQ(toString(outer.first()), "error R012: no; while validating frame \"main\" > RenderPass \"forward\" > draw #3");
+    EXPECT_NE(toJson(outer.first()).find(R"("context":["draw #3","RenderPass \"forward\"","frame \"main\""])"),
+              std::string::npos);
+}
+
+TEST(Diagnostics, TheFirstErrorStandsForAll) {
+    Diagnostics list(Diagnostic{.severity = Severity::Warning, .code = "J001"});
+    EXPECT_EQ(list.first().code, Code("J001"));
+    list.add({.code = "J002"});
+    list.add({.code = "J003"});
+    EXPECT_EQ(list.first().code, Code("J002"));
+    EXPECT_TRUE(Diagnostics().first().code.empty());
+}
+
+TEST(Code, EveryCodeOfTheListIsFoundAndHasOneMeaning) {
+    std::set<std::string_view> texts;
+    for (const Code& code : Code::all()) {
+        EXPECT_TRUE(texts.insert(code.text()).second) << code << " stands in the list twice";
+        EXPECT_TRUE(code.meaning().ends_with('.')) << code;
+        ASSERT_TRUE(Code::find(code.text())) << code;
+        EXPECT_EQ(*Code::find(code.text()), code);
+    }
+    EXPECT_GT(texts.size(), 200U);
+    EXPECT_EQ(Code("J010"), *Code::find("J010"));
+    EXPECT_FALSE(Code::find("J999"));
+    EXPECT_FALSE(Code::find(""));
+}
+
 TEST(Diagnostics, SortsByPlaceAndKnowsErrors) {
     Diagnostics list;
-    list.add({Severity::Warning, "B", "f", 2, 1, "", ""});
-    list.add({Severity::Warning, "A", "f", 1, 9, "", ""});
+    list.add({Severity::Warning, "J002", "f", 2, 1, "", ""});
+    list.add({Severity::Warning, "J001", "f", 1, 9, "", ""});
     EXPECT_FALSE(list.hasErrors());
-    list.add({Severity::Error, "C", "f", 1, 2, "", ""});
+    list.add({Severity::Error, "J003", "f", 1, 2, "", ""});
     EXPECT_TRUE(list.hasErrors());
     list.sortByPlace();
-    EXPECT_EQ(list.items()[0].code, "C");
-    EXPECT_EQ(list.items()[2].code, "B");
+    EXPECT_EQ(list.items()[0].code, Code("J003"));
+    EXPECT_EQ(list.items()[2].code, Code("J002"));
     list.append(list);
     EXPECT_EQ(list.items().size(), 6U);
-    EXPECT_EQ(list.text().substr(0, 18), "f:1:2: error C: \nf");
+    EXPECT_EQ(list.text().substr(0, 21), "f:1:2: error J003: \nf");
 }
 
 TEST(NearestName, FindsWhatAPersonMeant) {

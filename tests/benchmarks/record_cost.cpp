@@ -29,7 +29,7 @@ namespace vk = rhi::vulkan;
 template <class T>
 auto need(Result<T> result) {
     if (!result) {
-        std::fprintf(stderr, "record_cost: error: %s\n", toString(result.error()).c_str());
+        std::fprintf(stderr, "record_cost: error: %s\n", result.error().text().c_str());
         std::exit(2);
     }
     if constexpr (!std::is_void_v<T>) return std::move(*result);

@@ -50,11 +50,11 @@ int main() {
                                    ++complaints;
                                    failed(m.id + ": " + m.text);
                                }});
-    if (!instance) return failed(rhi::toString(instance.error()));
+    if (!instance) return failed(instance.error().text());
     auto adapter = instance->requestAdapter();
-    if (!adapter) return failed(rhi::toString(adapter.error()));
+    if (!adapter) return failed(adapter.error().text());
     auto device = adapter->requestDevice();
-    if (!device) return failed(rhi::toString(device.error()));
+    if (!device) return failed(device.error().text());
 
     hair::Library library(CONSUMER_DATA_DIR);
     auto tree = library.passTree("hair_frame");
@@ -62,7 +62,7 @@ int main() {
     auto material = library.material("brown");
     if (!material) return failed(material.error().text());
     auto renderer = hair::Renderer::create({.device = *device, .tree = *tree});
-    if (!renderer) return failed(toString(renderer.error()));
+    if (!renderer) return failed(renderer.error().text());
 
     const hair::Groom groom = hair::makeGroom({.strands = 400, .pointsPerStrand = 12, .width = 0.002F});
     hair::Scene scene;
@@ -74,7 +74,7 @@ int main() {
     scene.lights = hair::portraitLights(low, high);
     scene.camera = hair::frameBox(low, high, {0.4F, 0.1F, 1.0F}, 1.0F);
     auto picture = renderer->render(scene, {.width = 64, .height = 64});
-    if (!picture) return failed(toString(picture.error()));
+    if (!picture) return failed(picture.error().text());
     if (complaints > 0) return failed("the validation layer complained");
     return looksLikeBrownHair(*picture) ? 0 : failed("this is no picture of brown hair");
 }

@@ -129,12 +129,12 @@ struct GlbFile {
 
 /// Fails unless the outcome is the error `code`, told in one line with a text.
 template <class T>
-void expectFault(const Outcome<T>& outcome, const std::string& code) {
+void expectFault(const Result<T>& outcome, const std::string& code) {
     ASSERT_FALSE(outcome.has_value()) << "expected " << code;
-    EXPECT_EQ(outcome.error().code, code) << outcome.error().text;
-    EXPECT_EQ(outcome.error().severity, Severity::Error);
-    EXPECT_FALSE(outcome.error().text.empty());
-    EXPECT_EQ(toString(outcome.error()).find('\n'), std::string::npos);
+    EXPECT_EQ(outcome.error().first().code.text(), code) << outcome.error().first().text;
+    EXPECT_EQ(outcome.error().first().severity, Severity::Error);
+    EXPECT_FALSE(outcome.error().first().text.empty());
+    EXPECT_EQ(outcome.error().text().find('\n'), std::string::npos);
 }
 
 /// Every prefix (or a thousand of them) and `rounds` versions with a few bytes changed.

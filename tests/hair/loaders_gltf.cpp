@@ -11,7 +11,7 @@
 namespace pelage::hair::testing {
 namespace {
 
-Outcome<Geometry> readWith(const std::function<void(GlbFile&)>& change) {
+Result<Geometry> readWith(const std::function<void(GlbFile&)>& change) {
     GlbFile file;
     change(file);
     return parseGltf(file.bytes(), "x.glb");
@@ -19,7 +19,7 @@ Outcome<Geometry> readWith(const std::function<void(GlbFile&)>& change) {
 
 TEST(Gltf, StrandDirectionIsDownTheTexture) {
     const auto cards = parseGltf(GlbFile().bytes(), "x.glb");
-    ASSERT_TRUE(cards) << cards.error().text;
+    ASSERT_TRUE(cards) << cards.error().first().text;
     EXPECT_EQ(cards->indices.size(), 12U);
     EXPECT_EQ(cards->strandCount, 1U);
     EXPECT_EQ(cards->colorMap.width, 2U);
@@ -47,7 +47,7 @@ TEST(Gltf, NodeTransformsApplyAlsoNonUniformAndMirrored) {
         f.json["nodes"] = nlohmann::json::parse(
             R"([{"children": [1], "translation": [1, 2, 3]}, {"mesh": 0, "scale": [-2, 1, 4], "rotation": [0, 0, 0, 1]}])");
     });
-    ASSERT_TRUE(cards) << cards.error().text;
+    ASSERT_TRUE(cards) << cards.error().first().text;
     EXPECT_FLOAT_EQ(cards->vertices[1].position.x, 1.0F - 0.04F);
     EXPECT_FLOAT_EQ(cards->boundsMax.y, 2.0F);
     expectSound(*cards);
@@ -144,7 +144,7 @@ TEST(Gltf, TextFilesFindTheirBuffersAndImagesBesideThem) {
     expectFault(loadGltf(path), "G005");
     write("card.bmp", image.data(), image.size());
     const auto cards = loadGltf(path);
-    ASSERT_TRUE(cards) << cards.error().text;
+    ASSERT_TRUE(cards) << cards.error().first().text;
     EXPECT_EQ(cards->colorMap.width, 2U);
     EXPECT_TRUE(loadAsset(path));
     write("card.bin", file.bin.data(), file.bin.size() - 1);
@@ -215,7 +215,7 @@ TEST(Image, DecodesAndRefusesWithCodes) {
     poke(wide, 18, std::uint32_t{20000});
     const auto tooWide = decodeImage(wide, "x", true);
     ASSERT_FALSE(tooWide);
-    EXPECT_TRUE(tooWide.error().code == "I003" || tooWide.error().code == "I002") << tooWide.error().code;
+    EXPECT_TRUE(tooWide.error().first().code == "I003" || tooWide.error().first().code == "I002") << tooWide.error().first().code;
     Bytes hollow = bmpFile();
     poke(hollow, 18, std::uint32_t{16384});
     poke(hollow, 22, std::uint32_t{16384});
@@ -243,7 +243,7 @@ TEST_P(RealCards, LoadWithDirectionsThatHang) {
     if (folder == nullptr) GTEST_SKIP() << "PELAGE_ASSETS does not name the folder of real assets";
     const std::string path = std::string(folder) + "/cards/" + GetParam() + ".glb";
     const auto cards = loadGltf(path);
-    ASSERT_TRUE(cards) << cards.error().text;
+    ASSERT_TRUE(cards) << cards.error().first().text;
     expectSound(*cards);
     EXPECT_GT(cards->strandCount, 10U);
     EXPECT_EQ(cards->colorMap.width, 512U);

@@ -27,7 +27,7 @@ hair::Renderer makeRenderer(const std::string& tree) {
     }
     auto renderer = hair::Renderer::create({.device = Gpu::get().device, .tree = *parsed});
     if (!renderer) {
-        ADD_FAILURE() << toString(renderer.error());
+        ADD_FAILURE() << renderer.error().text();
         std::abort();
     }
     return *renderer;
@@ -41,8 +41,8 @@ materials::Material material(const std::string& preset,
         std::abort();
     }
     for (const auto& [id, text] : values) {
-        const auto fault = parsed->material.setFromText(id, text);
-        EXPECT_FALSE(fault) << toString(*fault);
+        const Diagnostics found = parsed->material.setFromText(id, text);
+        EXPECT_TRUE(found.empty()) << found.text();
     }
     return parsed->material;
 }
@@ -102,7 +102,7 @@ hair::Picture render(hair::Renderer& renderer, hair::Scene& scene, std::uint32_t
                      const std::map<std::string, passes::SettingValue>& settings) {
     auto picture = renderer.render(scene, {.width = size, .height = size, .settings = settings});
     if (!picture) {
-        ADD_FAILURE() << toString(picture.error());
+        ADD_FAILURE() << picture.error().text();
         hair::Picture empty;
         empty.width = empty.height = size;
         empty.linear.resize(std::size_t{size} * size * 4);
@@ -182,9 +182,9 @@ void expectGolden(const hair::Picture& picture, const std::string& name) {
         return;
     }
     auto bytes = hair::readFile(path);
-    ASSERT_TRUE(bytes) << toString(bytes.error());
+    ASSERT_TRUE(bytes) << bytes.error().text();
     auto golden = hair::decodeImage(*bytes, path, true);
-    ASSERT_TRUE(golden) << toString(golden.error());
+    ASSERT_TRUE(golden) << golden.error().text();
     ASSERT_EQ(golden->channels, 4U);
     ASSERT_EQ(golden->width, picture.width);
     ASSERT_EQ(golden->height, picture.height);

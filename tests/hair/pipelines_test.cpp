@@ -143,7 +143,7 @@ protected:
     static void set(hair::Scene& scene, const char* property, const char* value) {
         for (hair::Object& object : scene.objects) {
             if (object.geometry->isHair) {
-                EXPECT_FALSE(object.material.setFromText(property, value)) << property;
+                EXPECT_TRUE(object.material.setFromText(property, value).empty()) << property;
             }
         }
     }

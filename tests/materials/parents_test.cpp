@@ -33,7 +33,7 @@ protected:
                                   << "\n  \"typeVersion\": " << version << ",\n  \"values\": {" << values << "} }\n";
     }
 
-    std::vector<std::string> linesOf(const Checked<Material::Parsed>& parsed) const {
+    std::vector<std::string> linesOf(const Result<Material::Parsed>& parsed) const {
         std::vector<std::string> out;
         if (parsed) return out;
         for (Diagnostic each : parsed.error().items()) {
@@ -46,7 +46,7 @@ protected:
             strip(each.file);
             strip(each.text);
             out.push_back(each.file + ":" + std::to_string(each.line) + ":" + std::to_string(each.column) + " " +
-                          each.code + " " + each.text);
+                          std::string(each.code.text()) + " " + each.text);
         }
         return out;
     }

@@ -56,8 +56,8 @@ inline const CompiledMaterial::Shader& shader(const CompiledMaterial& compiled, 
     return compiled.shaders.front();
 }
 
-inline std::string codeOf(const std::optional<Diagnostic>& diagnostic) {
-    return diagnostic ? diagnostic->code : "none";
+inline std::string codeOf(const Diagnostics& found) {
+    return found.empty() ? "none" : std::string(found.first().code.text());
 }
 
 }  // namespace pelage::materials::test

@@ -59,7 +59,7 @@ Material::Parsed parsed(int version, std::string_view values) {
 
 std::string codesOf(const Diagnostics& found) {
     std::string out;
-    for (const Diagnostic& each : found.items()) out += (out.empty() ? "" : " ") + each.code;
+    for (const Diagnostic& each : found.items()) out += (out.empty() ? "" : " ") + std::string(each.code.text());
     return out;
 }
 

@@ -23,7 +23,7 @@ std::shared_ptr<const PassTree> parsed(const std::string& text) {
 std::set<std::string> errorsOf(const Diagnostics& diagnostics) {
     std::set<std::string> codes;
     for (const Diagnostic& each : diagnostics.items()) {
-        if (each.severity == Severity::Error) codes.insert(each.code);
+        if (each.severity == Severity::Error) codes.insert(std::string(each.code.text()));
     }
     return codes;
 }

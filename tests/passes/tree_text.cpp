@@ -302,7 +302,7 @@ SettingValue word(std::string value) {
 
 std::string codes(const Diagnostics& diagnostics) {
     std::string out;
-    for (const Diagnostic& each : diagnostics.items()) out += (out.empty() ? "" : " ") + each.code;
+    for (const Diagnostic& each : diagnostics.items()) out += (out.empty() ? "" : " ") + std::string(each.code.text());
     return out;
 }
 

@@ -93,10 +93,10 @@ struct HostFrame {
 
 class Adopt : public GpuTest {
 protected:
-    Error refused(const vk::AdoptDescriptor& d) {
+    Diagnostic refused(const vk::AdoptDescriptor& d) {
         auto result = vk::adopt(d);
         EXPECT_FALSE(result.has_value());
-        return result ? Error{} : result.error();
+        return result ? Diagnostic{} : result.error().first();
     }
 };
 
@@ -112,7 +112,7 @@ TEST_F(Adopt, EveryGapIsNamedAtOnce) {
     EXPECT_EQ(error.code, ErrorCode::MissingFeature);
     for (const char* word : {"API version 1.3", "dynamicRendering", "synchronization2", "maintenance4",
                              "timelineSemaphore", "independentBlend", "family 99", "queue lock"})
-        EXPECT_NE(error.message.find(word), std::string::npos) << word << " is not in: " << error.message;
+        EXPECT_NE(error.text.find(word), std::string::npos) << word << " is not in: " << error.text;
 }
 
 TEST_F(Adopt, OneMissingFeatureIsOneGap) {
@@ -121,7 +121,7 @@ TEST_F(Adopt, OneMissingFeatureIsOneGap) {
     auto chain = host.needs.features;
     chain.f12.timelineSemaphore = VK_FALSE;
     d.enabledFeatures = chain.link(!host.needs.deviceExtensions.empty());
-    const auto text = refused(d).message;
+    const auto text = refused(d).text;
     EXPECT_NE(text.find("it lacks feature timelineSemaphore."), std::string::npos) << text;
 }
 
@@ -155,14 +155,14 @@ TEST_F(Adopt, FeaturesCountWhicheverStructureEnablesThem) {
     d.enabledFeatures = &first;
     EXPECT_TRUE(vk::adopt(d).has_value());
     timeline.timelineSemaphore = VK_FALSE;
-    EXPECT_NE(refused(d).message.find("it lacks feature timelineSemaphore."), std::string::npos);
+    EXPECT_NE(refused(d).text.find("it lacks feature timelineSemaphore."), std::string::npos);
 }
 
 TEST_F(Adopt, EmptyHandlesAreNamed) {
     HostDevice host(gpu);
     auto d = host.descriptor();
     d.queue = VK_NULL_HANDLE;
-    EXPECT_NE(refused(d).message.find("AdoptDescriptor::queue"), std::string::npos);
+    EXPECT_NE(refused(d).text.find("AdoptDescriptor::queue"), std::string::npos);
     EXPECT_FALSE(vk::needs(host.entry, VK_NULL_HANDLE, host.physical));
     EXPECT_FALSE(vk::createInstance({}, nullptr));
 }

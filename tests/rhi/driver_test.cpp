@@ -126,7 +126,7 @@ TEST(Limits, EveryOneThatFallsShortIsNamed) {
     const auto device = adapter.requestDevice({.requiredLimits = wanted});
     ASSERT_FALSE(device);
     for (const char* word : {"maxBindGroups 99 (it has 8)", "maxBufferSize", "minUniformBufferOffsetAlignment 1"})
-        EXPECT_NE(device.error().message.find(word), std::string::npos) << device.error().message;
+        EXPECT_NE(device.error().first().text.find(word), std::string::npos) << device.error().first().text;
 }
 
 TEST(MapAsync, TellsWhenTheWorkThatUsesTheBufferIsDone) {
@@ -152,7 +152,7 @@ TEST(MapAsync, TellsWhenTheWorkThatUsesTheBufferIsDone) {
     EXPECT_EQ(calls, 2U) << "at once when nothing uses it";
     const auto refused = n.buffer("plain", 64, BufferUsage::CopyDst).mapAsync(tell);
     ASSERT_FALSE(refused);
-    EXPECT_EQ(refused.error().code, ErrorCode::NotMapped);
+    EXPECT_EQ(refused.error().first().code, ErrorCode::NotMapped);
 }
 
 TEST(Toggles, AnUnknownNameListsTheKnown) {
@@ -160,8 +160,8 @@ TEST(Toggles, AnUnknownNameListsTheKnown) {
     const auto instance = NullDevice::get(vulkan::createInstance({}, NullDriver::entry()));
     const auto device = NullDevice::get(instance.requestAdapter()).requestDevice({.toggles = {{"noSuchThing"}}});
     ASSERT_FALSE(device);
-    EXPECT_EQ(device.error().code, ErrorCode::UnknownToggle);
-    EXPECT_NE(device.error().message.find("resolveToFirstLayerOnly"), std::string::npos) << device.error().message;
+    EXPECT_EQ(device.error().first().code, ErrorCode::UnknownToggle);
+    EXPECT_NE(device.error().first().text.find("resolveToFirstLayerOnly"), std::string::npos) << device.error().first().text;
 }
 
 }  // namespace

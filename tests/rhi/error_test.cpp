@@ -14,17 +14,17 @@ namespace {
 class Errors : public RhiTest {
 protected:
     template <class T>
-    Error error(const Result<T>& result) {
+    Diagnostic error(const Result<T>& result) {
         EXPECT_FALSE(result) << "no error came";
-        return result ? Error{} : result.error();
+        return result ? Diagnostic{} : result.error();
     }
     /// The error of an encoder that `record` misuses.
-    Error encoding(const std::function<void(CommandEncoder&)>& record) {
+    Diagnostic encoding(const std::function<void(CommandEncoder&)>& record) {
         auto encoder = device.createCommandEncoder("frame");
         record(encoder);
         return error(encoder.finish());
     }
-    Error inRenderPass(const std::function<void(RenderPassEncoder&)>& record) {
+    Diagnostic inRenderPass(const std::function<void(RenderPassEncoder&)>& record) {
         return encoding([&](CommandEncoder& encoder) {
             auto pass =
                 encoder.beginRenderPass({.label = "forward", .colorAttachments = {{.view = view(target(8, 8))}}});
@@ -32,10 +32,10 @@ protected:
             pass.end();
         });
     }
-    void contains(const Error& e, std::initializer_list<std::string_view> parts) {
+    void contains(const Diagnostic& e, std::initializer_list<std::string_view> parts) {
         const auto text = toString(e);
         for (const auto part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << " is not in:\n" << text;
-        EXPECT_EQ(e.message.back(), '.') << text;
+        EXPECT_EQ(e.text.back(), '.') << text;
     }
     BindGroupLayout uniformLayout() {
         return value(device.createBindGroupLayout(
@@ -52,8 +52,8 @@ struct Variable {  // an environment variable for the length of a scope
 
 TEST_F(Errors, EveryCodeIsProvoked) {
     device.pushErrorScope();
-    std::map<ErrorCode, Error> seen;
-    const auto note = [&](const Error& e) { seen[e.code] = e; };
+    std::map<Code, Diagnostic> seen;
+    const auto note = [&](const Diagnostics& e) { seen[e.first().code] = e.first(); };
     note(error(gpu.adapter.requestDevice({.toggles = {{"noSuchToggle"}}})));
     {
         const Variable hidden("VK_LAYER_PATH", "/nonexistent");
@@ -99,31 +99,30 @@ TEST_F(Errors, EveryCodeIsProvoked) {
     note(error(device.createBuffer(
         {.label = "unmapped", .size = 4, .usage = BufferUsage::Storage, .mappedAtCreation = true})));
     device.popErrorScope();
-#define PELAGE_RHI_ERROR(name, number, sentence)                                       \
+#define PELAGE_RHI_CODE(code, name, meaning)                                           \
     if (ErrorCode::name != ErrorCode::NoLoader) { /* needs a machine without Vulkan */ \
         EXPECT_TRUE(seen.contains(ErrorCode::name)) << #name " was not provoked";      \
-        EXPECT_TRUE(seen[ErrorCode::name].message.ends_with('.')) << #name;            \
+        EXPECT_TRUE(seen[ErrorCode::name].text.ends_with('.')) << #name;               \
     }
-#include <pelage/rhi/error_codes.def>
-#undef PELAGE_RHI_ERROR
+#include <pelage/base/codes.def>
 }
 
 TEST_F(Errors, ADriverFailureNamesTheCallAndTheObject) {
     auto plain = value(Instance::create({.label = "no layer"}));
     auto adapter = value(plain.requestAdapter({.nameContains = gpu.adapter.info().name}));
-    auto other = value(adapter.requestDevice({.label = "small", .onUncapturedError = [](const Error&) {}}));
+    auto other = value(adapter.requestDevice({.label = "small", .onUncapturedError = [](const Diagnostic&) {}}));
     // Virtual memory is cheap: take the largest buffers until the driver says no.
     std::vector<Buffer> all;
-    Error refused;
+    Diagnostic refused;
     const std::uint64_t size = std::min<std::uint64_t>(other.limits().maxBufferSize, 4ULL << 40);
-    for (int i = 0; i < 64 && refused.message.empty(); ++i) {
+    for (int i = 0; i < 64 && refused.text.empty(); ++i) {
         auto b = other.createBuffer({.label = "huge", .size = size, .usage = BufferUsage::Storage});
         if (b)
             all.push_back(*b);
         else
             refused = b.error();
     }
-    if (refused.message.empty())
+    if (refused.text.empty())
         GTEST_SKIP() << "this machine gave " << all.size() << " buffers of " << size << " bytes";
     contains(refused, {"[Buffer \"huge\"]", "VK_ERROR_"});
     EXPECT_EQ(refused.kind, ErrorKind::OutOfMemory);
@@ -276,9 +275,9 @@ TEST_F(Errors, MissingFeaturesAreNamedAll) {
     const auto e = error(gpu.adapter.requestDevice({.label = "greedy", .requiredFeatures = two}));
     contains(e, {"R003", "feature bit 1048576, feature bit 2097152", "[Adapter \""});
     EXPECT_EQ(e.kind, ErrorKind::Unsupported);
-    std::vector<Error> caught;
+    std::vector<Diagnostic> caught;
     const auto bare = value(gpu.adapter.requestDevice(
-        {.label = "bare", .optionalFeatures = Feature::None, .onUncapturedError = [&](const Error& x) {
+        {.label = "bare", .optionalFeatures = Feature::None, .onUncapturedError = [&](const Diagnostic& x) {
              caught.push_back(x);
          }}));
     contains(error(bare.createQuerySet({.label = "times", .count = 1})), {"R003", "Feature::Timestamps"});
@@ -290,9 +289,9 @@ TEST_F(Errors, MissingFeaturesAreNamedAll) {
 }
 
 TEST_F(Errors, ALostDeviceSaysSoAndNothingCrashes) {
-    std::vector<Error> caught;
+    std::vector<Diagnostic> caught;
     auto other = value(gpu.adapter.requestDevice(
-        {.label = "doomed", .onUncapturedError = [&](const Error& e) { caught.push_back(e); }}));
+        {.label = "doomed", .onUncapturedError = [&](const Diagnostic& e) { caught.push_back(e); }}));
     auto b = value(other.createBuffer({.label = "b", .size = 64, .usage = BufferUsage::CopyDst}));
     other.get()->lost = true;
     auto encoder = other.createCommandEncoder("late");
@@ -313,7 +312,7 @@ TEST_F(Errors, TheCpuDeviceIsAnnounced) {
     EXPECT_EQ(said[0].id, "adapter");
     EXPECT_EQ(said[0].level, LogLevel::Info);
     EXPECT_NE(said[0].text.find("pictures are right, times are not"), std::string::npos);
-    EXPECT_EQ(instance.requestAdapter({.allowCPU = false}).error().code, ErrorCode::NoAdapter);
+    EXPECT_EQ(instance.requestAdapter({.allowCPU = false}).error().first().code, ErrorCode::NoAdapter);
 }
 
 }  // namespace

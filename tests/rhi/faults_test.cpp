@@ -9,12 +9,12 @@ namespace pelage::test {
 namespace {
 
 /// A little of everything, written as an application that stops at its first error would be. Gives that error.
-std::optional<Error> program(NullDriver& driver, const std::function<void()>& ready) {
-    std::optional<Error> error;
+std::optional<Diagnostic> program(NullDriver& driver, const std::function<void()>& ready) {
+    std::optional<Diagnostic> error;
     // Keeps the first error; the value is empty afterwards.
     const auto take = [&](auto result) {
         using T = typename decltype(result)::value_type;
-        if (!result && !error) error = result.error();
+        if (!result && !error) error = result.error().first();
         if constexpr (!std::is_void_v<T>) return result ? std::move(*result) : T();
     };
     const auto code = [](std::string_view name) {
@@ -116,7 +116,7 @@ TEST(Faults, EveryDriverCallMayFailAndNothingLeaks) {
             const auto kind = result == VK_ERROR_DEVICE_LOST ? ErrorKind::DeviceLost : ErrorKind::OutOfMemory;
             EXPECT_EQ(error->kind, kind) << where << ": " << toString(*error);
             if (kind == ErrorKind::OutOfMemory) {
-                EXPECT_NE(error->message.find(*driver.failed()), std::string::npos)
+                EXPECT_NE(error->text.find(*driver.failed()), std::string::npos)
                     << where << " is not named in: " << toString(*error);
             }
         }
@@ -128,9 +128,9 @@ TEST(Faults, AfterDeviceLossEveryCallSaysSoOnceToldAndNoneReachesTheDriver) {
     int told = 0;
     {
         const auto device = NullDevice::get(NullDevice::get(instance.requestAdapter())
-                                                .requestDevice({.onUncapturedError = [](const Error&) {},
+                                                .requestDevice({.onUncapturedError = [](const Diagnostic&) {},
                                                                 .onDeviceLost =
-                                                                    [&](const Error& e) {
+                                                                    [&](const Diagnostic& e) {
                                                                         ++told;
                                                                         EXPECT_EQ(e.kind, ErrorKind::DeviceLost);
                                                                     }}));
@@ -147,10 +147,10 @@ TEST(Faults, AfterDeviceLossEveryCallSaysSoOnceToldAndNoneReachesTheDriver) {
         for (int i = 0; i < 3; ++i) {
             const auto again = device.queue().submit(second);
             ASSERT_FALSE(again);
-            EXPECT_EQ(again.error().kind, ErrorKind::DeviceLost);
+            EXPECT_EQ(again.error().first().kind, ErrorKind::DeviceLost);
         }
         const std::vector<std::byte> bytes(4);
-        EXPECT_EQ(device.queue().writeBuffer(b, 0, bytes).error().code, ErrorCode::DeviceLost);
+        EXPECT_EQ(device.queue().writeBuffer(b, 0, bytes).error().first().code, ErrorCode::DeviceLost);
         EXPECT_EQ(driver.submissions, before);
         EXPECT_EQ(told, 1);
     }

@@ -73,7 +73,7 @@ TEST_F(Indirect, ArgumentsNeedTheirUsageAndTheirPlace) {
         pass.end();
         device.pushErrorScope();
         EXPECT_FALSE(encoder.finish());
-        return device.popErrorScope().value_or(Error{}).code;
+        return device.popErrorScope().value_or(Diagnostic{}).code;
     };
     EXPECT_EQ(codeOf(plain, 0), ErrorCode::InvalidUsage);
     EXPECT_EQ(codeOf(small, 8), ErrorCode::OutOfRange);
@@ -92,7 +92,7 @@ TEST_F(Indirect, ArgumentsCannotBeWrittenByTheCommandThatReadsThem) {
     pass.end();
     device.pushErrorScope();
     EXPECT_FALSE(encoder.finish());
-    EXPECT_EQ(device.popErrorScope().value_or(Error{}).code, ErrorCode::UsageConflict);
+    EXPECT_EQ(device.popErrorScope().value_or(Diagnostic{}).code, ErrorCode::UsageConflict);
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ using namespace rhi;
 struct NullDevice {
     NullDriver driver;
     HazardOracle oracle;
-    std::vector<Error> errors;  // that no scope caught
+    std::vector<Diagnostic> errors;  // that no scope caught
     Instance instance;
     Device device;
 
@@ -27,12 +27,12 @@ struct NullDevice {
         auto adapter = get(instance.requestAdapter());
         device = get(adapter.requestDevice({.label = "null",
                                             .optionalFeatures = adapter.info().features,
-                                            .onUncapturedError = [this](const Error& e) { errors.push_back(e); }}));
+                                            .onUncapturedError = [this](const Diagnostic& e) { errors.push_back(e); }}));
     }
     template <class T>
     static T get(Result<T> result) {
         if (result) return std::move(*result);
-        ADD_FAILURE() << toString(result.error());
+        ADD_FAILURE() << result.error().text();
         return {};
     }
     ShaderModule shader(std::string_view name) const {

@@ -93,13 +93,13 @@ TEST(Reflection, GarbageIsAnErrorAndNeverACrash) {
     const auto code = embeddedShader("everything.comp");
     for (std::size_t n = 0; n < code.size(); n += 7) {  // cut anywhere
         const auto r = detail::reflect({code.begin(), code.begin() + static_cast<std::ptrdiff_t>(n)}, "cut");
-        EXPECT_TRUE(r || r.error().code == ErrorCode::ShaderInvalid);
+        EXPECT_TRUE(r || r.error().first().code == ErrorCode::ShaderInvalid);
     }
-    EXPECT_EQ(detail::reflect({1, 2, 3, 4, 5, 6}, "noise").error().code, ErrorCode::ShaderInvalid);
+    EXPECT_EQ(detail::reflect({1, 2, 3, 4, 5, 6}, "noise").error().first().code, ErrorCode::ShaderInvalid);
     const auto combined = embeddedShader("combined.frag");
     const auto r = detail::reflect({combined.begin(), combined.end()}, "[ShaderModule \"old\"]");
     ASSERT_FALSE(r);
-    EXPECT_NE(r.error().message.find("combined sampler \"image\""), std::string::npos) << r.error().message;
+    EXPECT_NE(r.error().first().text.find("combined sampler \"image\""), std::string::npos) << r.error().first().text;
 }
 
 }  // namespace

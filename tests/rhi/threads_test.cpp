@@ -71,7 +71,7 @@ TEST(Threads, TwoDevicesDoNotKnowOfEachOther) {
     encoder.clearBuffer(foreign);
     const auto refused = encoder.finish();
     ASSERT_FALSE(refused);
-    EXPECT_EQ(refused.error().code, ErrorCode::OtherDevice);
+    EXPECT_EQ(refused.error().first().code, ErrorCode::OtherDevice);
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ TEST_F(TransientHeapTest, ThePlaceMustBeAlignedAndInside) {
     EXPECT_TRUE(device.popErrorScope());
     device.pushErrorScope();
     EXPECT_FALSE(device.createTransientHeap({.label = "nothing"}));
-    EXPECT_EQ(value(Result<Error>(*device.popErrorScope())).code, ErrorCode::InvalidSize);
+    EXPECT_EQ(value(Result<Diagnostic>(*device.popErrorScope())).code, ErrorCode::InvalidSize);
 }
 
 TEST_F(TransientHeapTest, TheHeapLivesAsLongAsItsTextures) {

@@ -17,7 +17,7 @@ protected:
         EXPECT_EQ(result.err, "");
         const std::string file = read(path(name));
         auto image = hair::decodeImage(std::as_bytes(std::span(file.data(), file.size())), name, true);
-        EXPECT_TRUE(image) << (image ? "" : toString(image.error()));
+        EXPECT_TRUE(image) << (image ? "" : image.error().text());
         return image ? *image : hair::Image8{};
     }
 };

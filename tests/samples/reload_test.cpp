@@ -21,7 +21,7 @@ protected:
     void SetUp() override {
         App::SetUp();
         gpu_ = app::openGpu({.validation = true});
-        ASSERT_TRUE(gpu_) << gpu_.error().line;
+        ASSERT_TRUE(gpu_) << gpu_.error().first().line;
         const fs::path data = PELAGE_SOURCE_DIR;
         write("mine.pass.json", read((data / "hair/data/frames/hair_frame.pass.json").string()));
         write("hair.materialtype.json", read((data / "hair/data/types/hair.materialtype.json").string()));
@@ -49,12 +49,12 @@ protected:
         const app::StageOptions options{.input = path("mine.scene.json"), .size = "48x40"};
         hair::Library library(app::dataDirectory());
         auto stage = app::makeStage(options, library);
-        ASSERT_TRUE(stage) << stage.error().line;
+        ASSERT_TRUE(stage) << stage.error().first().line;
         const auto make = [this](const std::shared_ptr<const passes::PassTree>& tree) {
             return app::makeRenderer(*gpu_, tree, false);
         };
         auto renderer = make(stage->tree);
-        ASSERT_TRUE(renderer) << renderer.error().line;
+        ASSERT_TRUE(renderer) << renderer.error().first().line;
         live_.emplace(options, std::move(*stage), std::move(*renderer), make);
         last_ = picture();
         ASSERT_FALSE(last_.empty());
@@ -62,7 +62,7 @@ protected:
 
     std::vector<std::uint8_t> picture() {
         auto drawn = live_->renderer().render(live_->stage().file.scene, live_->stage().file.frame);
-        EXPECT_TRUE(drawn) << app::Failure(drawn.error()).line;
+        EXPECT_TRUE(drawn) << drawn.error().text();
         return drawn ? drawn->display : std::vector<std::uint8_t>();
     }
 
@@ -81,7 +81,8 @@ protected:
     void expectKept(const std::string& why) {
         const LiveStage::Polled polled = live_->poll();
         ASSERT_EQ(polled.change, LiveStage::Change::Kept) << why;
-        EXPECT_NE(polled.error.find(why), std::string::npos) << polled.error;
+        const std::string line = lineOf(polled.error);
+        EXPECT_NE(line.find(why), std::string::npos) << line;
         ASSERT_EQ(polled.notes.items().size(), 1U);
         const std::string note = toString(polled.notes.items().front());
         EXPECT_EQ(note.rfind("note A130: keeping the version of ", 0), 0U) << note;
@@ -99,7 +100,7 @@ protected:
         EXPECT_EQ(live_->poll().change, LiveStage::Change::None);
     }
 
-    app::Outcome<app::Gpu> gpu_ = app::Gpu();
+    Result<app::Gpu> gpu_ = app::Gpu();
     std::optional<LiveStage> live_ = {};
     std::vector<std::uint8_t> last_ = {};
 };

@@ -24,14 +24,14 @@ ScatterRows rowsOf(const std::string& text) {
     static std::vector<std::unique_ptr<std::string>> kept;
     kept.push_back(std::make_unique<std::string>(text));
     const auto read = readScatterRows(*kept.back(), "t.csv");
-    EXPECT_TRUE(read) << toString(read.error());
+    EXPECT_TRUE(read) << read.error().text();
     return read ? *read : ScatterRows{};
 }
 
 std::string refusalOf(const std::string& text) {
     const auto read = readScatterRows(text, "t.csv");
     EXPECT_FALSE(read);
-    return read ? "" : toString(read.error());
+    return read ? "" : read.error().text();
 }
 
 std::vector<std::string> lines(const std::string& text) {

@@ -53,6 +53,11 @@ TEST_F(Schema, PageOfMaterialsIsWhatTheSchemaGives) {
     expectPage("material", "docs/materials.md");
 }
 
+TEST_F(Schema, PageOfDiagnosticsIsWhatTheListGives) {
+    EXPECT_TRUE(run({"schema", "diagnostics"}).out == shipped("docs/diagnostics.md"))
+        << "pelage schema diagnostics -o docs/diagnostics.md";
+}
+
 TEST_F(Schema, EveryMemberIsExplained) {
     for (const char* file : {"passes/data/passtree.schema.json", "materials/data/materialtype.schema.json",
                              "materials/data/material.schema.json"}) {

@@ -86,7 +86,7 @@ TEST_F(Precision, GpuFloatsAreCloseToTheDoubleBuild) {
         for (const Band& band : bands) {
             const auto all = rows(band.low, band.high, nearField, nearField ? 20000 : 1000);
             const auto found = compute.evaluate(model, false, all);
-            ASSERT_TRUE(found) << found.error().text;
+            ASSERT_TRUE(found) << found.error().first().text;
             const auto exact = onCpu(hair::scatterDouble, model, all);
             const double gpuError = worst(all, *found, exact);
             const double floatError = worst(all, onCpu(hair::scatterFloat, model, all), exact);
@@ -105,7 +105,7 @@ TEST_F(Precision, SegmentsAreRightToAShareOfTheLobe) {
     hair::ScatterCompute compute(gpu.device);
     const auto all = rows(0.1, 1.0, false, 5000);
     const auto found = compute.evaluate(ScatteringModel::SegmentCdf, false, all);
-    ASSERT_TRUE(found) << found.error().text;
+    ASSERT_TRUE(found) << found.error().first().text;
     const auto exact = onCpu(hair::scatterDouble, ScatteringModel::SegmentCdf, all);
     double largest = 0;
     for (std::size_t i = 0; i < all.size(); ++i) {

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: MIT
-// One diagnostic is one line: what is wrong, where, what was expected, what to do. Every reader of outside bytes in
-// Pelage (JSON, glTF, .tfx, .hair, images) reports through this type, so that people and editors read one format.
+// The one error of Pelage. A diagnostic is one line: what is wrong, where, what was expected, what to do. Readers of
+// outside bytes, pass trees, materials, the renderer and the device all fail with it, so that people and editors read one
+// format and a fault keeps its code and its place on the way up.
 #pragma once
+
+#include <pelage/base/code.hpp>
 
 #include <cstdint>
 #include <string>
@@ -13,17 +16,29 @@ namespace pelage {
 
 enum class Severity : std::uint8_t { Note, Warning, Error };
 
+/// What a device's fault asks of the caller; `None` for faults that are not a device's.
+enum class ErrorKind : std::uint8_t {
+    None,
+    Validation,   // the program asked for something that is not allowed
+    OutOfMemory,  // less may succeed
+    DeviceLost,   // nothing more will succeed on this device
+    Unsupported,  // this device or driver cannot
+    Internal      // the driver failed in another way
+};
+
 struct Diagnostic {
     Severity severity = Severity::Error;
-    std::string code = {};     // stable, for example "J010"; documented in docs/diagnostics.md
+    Code code = {};
     std::string file = {};     // as the user named it; empty when the text came from memory
     std::uint32_t line = 0;    // 1-based; 0 when the place is not a line of text (binary files give the byte in `text`)
     std::uint32_t column = 0;  // 1-based, in bytes
     std::string text = {};     // what is wrong, with the value found and what was expected
     std::string hint = {};     // what to do; may be empty
+    std::vector<std::string> context = {};  // what was being done, innermost first: "RenderPass \"forward\" > draw #3"
+    ErrorKind kind = ErrorKind::None;
 };
 
-/// "file:line:column: error J010: text; hint: hint", never a line break.
+/// "file:line:column: error J010: text; while recording ...; hint: hint", never a line break.
 std::string toString(const Diagnostic& diagnostic);
 
 /// The same for programs: one line of JSON without a line break,
@@ -35,11 +50,19 @@ std::string toJson(const Diagnostic& diagnostic);
 /// Everything found wrong with one piece of input, in the order of the text.
 class Diagnostics {
 public:
+    Diagnostics() = default;
+    Diagnostics(Diagnostic one);  // NOLINT(google-explicit-constructor): a function that finds one fault returns it
+
     void add(Diagnostic diagnostic);
     void append(const Diagnostics& other);
     bool hasErrors() const;
     bool empty() const { return items_.empty(); }
-    const std::vector<Diagnostic>& items() const { return items_; }
+    const std::vector<Diagnostic>& items() const& { return items_; }
+    std::vector<Diagnostic> items() && { return std::move(items_); }  // a loop over a temporary's items owns them
+    /// The first that is an error; the first of all when none is; an empty one when there is nothing.
+    const Diagnostic& first() const;
+    /// The same faults, each with `context` as the outermost thing that was being done.
+    Diagnostics within(const std::string& context) const;
     void sortByPlace();
     /// All lines, each ending in a line feed.
     std::string text() const;
@@ -50,13 +73,9 @@ private:
     std::vector<Diagnostic> items_;
 };
 
-/// The result of reading something: the value, or the one line that says why not.
+/// The value, or all the reasons why there is none.
 template <class T>
-using Outcome = tl::expected<T, Diagnostic>;
-
-/// The result of reading a text where all faults are reported at once.
-template <class T>
-using Checked = tl::expected<T, Diagnostics>;
+using Result = tl::expected<T, Diagnostics>;
 
 /// The name among `known` that a person most likely meant by `word` (small edit distance, case differences are free),
 /// or an empty view.

@@ -14,6 +14,10 @@
 #include <string>
 #include <vector>
 
+namespace pelage::json {
+struct Value;
+}
+
 namespace pelage::materials {
 
 struct Property {
@@ -55,9 +59,9 @@ struct Conversion;  // src/convert.hpp
 class MaterialType {
 public:
     /// Reads and links a type. `registry` must outlive nothing: what is needed is copied.
-    static Checked<std::shared_ptr<const MaterialType>> parse(std::string_view text, const std::string& file,
+    static Result<std::shared_ptr<const MaterialType>> parse(std::string_view text, const std::string& file,
                                                               const FunctorRegistry& registry);
-    static Checked<std::shared_ptr<const MaterialType>> load(const std::string& path, const FunctorRegistry& registry);
+    static Result<std::shared_ptr<const MaterialType>> load(const std::string& path, const FunctorRegistry& registry);
 
     const std::string& name() const;
     const std::string& file() const;
@@ -107,29 +111,31 @@ public:
     explicit Material(std::shared_ptr<const MaterialType> type);
 
     /// Finds material types by the name a material file gives, for example "hair.materialtype.json".
-    using TypeSource = std::function<Checked<std::shared_ptr<const MaterialType>>(const std::string& name)>;
+    using TypeSource = std::function<Result<std::shared_ptr<const MaterialType>>(const std::string& name)>;
     /// The path of a parent, from the name in "parent" and the path of the file that says so. Without one, parents are
     /// looked for beside that file.
     using ParentSource = std::function<std::string(const std::string& name, const std::string& file)>;
     struct Parsed;
     /// Reads a material and its parents: the values of the nearest file win. A parent that is missing, of another type,
     /// or its own ancestor is V012, at each place concerned.
-    static Checked<Parsed> parse(std::string_view text, const std::string& file, const TypeSource& types,
+    static Result<Parsed> parse(std::string_view text, const std::string& file, const TypeSource& types,
                                  const ParentSource& parents = {});
-    static Checked<Parsed> load(const std::string& path, const TypeSource& types, const ParentSource& parents = {});
+    static Result<Parsed> load(const std::string& path, const TypeSource& types, const ParentSource& parents = {});
     /// The files it was read from: its own, its parent, the parent's parent. Empty for a material made by a program.
     const std::vector<std::string>& files() const { return files_; }
 
     const MaterialType& type() const { return *type_; }
     const std::shared_ptr<const MaterialType>& sharedType() const { return type_; }
 
-    /// Sets a property. Numbers outside the range are clamped and say so in the returned warning; a wrong type, an
-    /// unknown name or word, and numbers that are not finite change nothing and give an error.
-    std::optional<Diagnostic> set(std::string_view id, const Value& value);
+    /// Sets a property. Gives nothing when all is well, a warning for a number that was clamped to the range, and an
+    /// error (nothing is changed) for a wrong type, an unknown name or word, and numbers that are not finite.
+    Diagnostics set(std::string_view id, const Value& value);
+    /// As a file writes it.
+    Diagnostics set(std::string_view id, const json::Value& value);
     /// As a person writes it: "0.3", "true", "alphaTest", "0.8,0.5,0.2", "#805030" (sRGB), a texture path.
-    std::optional<Diagnostic> setFromText(std::string_view id, std::string_view text);
+    Diagnostics setFromText(std::string_view id, std::string_view text);
     const Value* get(std::string_view id) const;
-    std::optional<Diagnostic> applyPreset(std::string_view name);
+    Diagnostics applyPreset(std::string_view name);
     void reset();
     /// What `visibleWhen` (also of the group) and `enabledWhen` say at the present values; true for an unknown name.
     bool isVisible(std::string_view id) const;
@@ -140,7 +146,9 @@ public:
 
 private:
     friend struct MaterialReader;
-    std::optional<Diagnostic> assign(std::string_view id, const std::function<Conversion(const Property&)>& from);
+    void assign(std::size_t property, const Value& value);
+    template <class Given>
+    Diagnostics take(std::string_view id, const Given& given);
 
     std::shared_ptr<const MaterialType> type_;
     std::vector<Value> values_;  // by property index
@@ -154,5 +162,9 @@ struct Material::Parsed {
     Material material;
     Diagnostics warnings;
 };
+
+/// The JSON schemas of material types and of materials, which the readers check with.
+std::string_view materialTypeSchema();
+std::string_view materialSchema();
 
 }  // namespace pelage::materials

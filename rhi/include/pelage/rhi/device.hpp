@@ -65,10 +65,10 @@ struct DeviceDescriptor {
     std::vector<Toggle> toggles = {};  // those that are not to be as the driver asks for
     /// Errors that no error scope caught. Default: written to the instance's onMessage as an Error. May be called
     /// inside a lock of the device: do not call it from there.
-    std::function<void(const Error&)> onUncapturedError = {};
+    std::function<void(const Diagnostic&)> onUncapturedError = {};
     /// Called once, with the first error that says so, maybe inside a lock of the device: do not call it from there.
     /// Submissions and writes afterwards fail with DeviceLost and do nothing.
-    std::function<void(const Error&)> onDeviceLost = {};
+    std::function<void(const Diagnostic&)> onDeviceLost = {};
 };
 
 /// A point on the queue's timeline; ordered.
@@ -131,7 +131,7 @@ public:
 
     void pushErrorScope() const;
     /// The first error since the matching pushErrorScope, if any.
-    std::optional<Error> popErrorScope() const;
+    std::optional<Diagnostic> popErrorScope() const;
 
     /// Names of the workarounds that are on.
     std::vector<std::string> toggles() const;

@@ -97,8 +97,8 @@ struct AdoptDescriptor {
     BlobCache pipelines = {};                          // when there is none of the host's
     std::vector<Toggle> toggles = {};
     MessageCallback onMessage = {};
-    std::function<void(const Error&)> onUncapturedError = {};
-    std::function<void(const Error&)> onDeviceLost = {};
+    std::function<void(const Diagnostic&)> onUncapturedError = {};
+    std::function<void(const Diagnostic&)> onDeviceLost = {};
     /// Called once when nothing of ours is left on the device: the host may destroy it now.
     std::function<void()> onRelease = {};
 };
