@@ -2,129 +2,84 @@
 #include "pipelines.hpp"
 
 #include <algorithm>
-#include <bit>
 
 namespace pelage::hair {
 namespace {
 
-// FNV-1a: https://www.rfc-editor.org/rfc/rfc9923. Fed byte by byte, so that no platform's byte order or padding counts.
-class Hash {
-public:
-    void add(std::uint64_t value, int bytes = 8) {
-        for (int i = 0; i < bytes; ++i) {
-            value_ = (value_ ^ (value & 0xFF)) * 0x100000001B3ULL;
-            value >>= 8;
-        }
-    }
-    template <class Enum>
-    requires std::is_enum_v<Enum>
-    void add(Enum value) { add(static_cast<std::uint64_t>(value), 4); }
-    void add(bool value) { add(value ? 1U : 0U, 1); }
-    void add(float value) { add(std::bit_cast<std::uint32_t>(value == 0 ? 0.0F : value), 4); }  // -0 is 0
-    void add(double value) { add(std::bit_cast<std::uint64_t>(value == 0 ? 0.0 : value)); }
-    void add(std::string_view text) {
-        add(text.size());
-        for (const char c : text) add(static_cast<unsigned char>(c), 1);
-    }
-    void add(const rhi::BlendComponent& blend) {
-        add(blend.operation);
-        add(blend.srcFactor);
-        add(blend.dstFactor);
-    }
-    void add(std::vector<rhi::ConstantEntry> constants) {
-        std::sort(constants.begin(), constants.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
-        add(constants.size());
-        for (const rhi::ConstantEntry& constant : constants) {
-            add(std::string_view(constant.name));
-            add(constant.value);
-        }
-    }
-    std::uint64_t value() const { return value_; }
+bool same(const rhi::ProgrammableStage& a, const rhi::ProgrammableStage& b) {
+    return a.module == b.module && a.constants == b.constants;
+}
 
-private:
-    std::uint64_t value_ = 0xCBF29CE484222325ULL;
-};
+bool same(const rhi::VertexBufferLayout& a, const rhi::VertexBufferLayout& b) {
+    return a.arrayStride == b.arrayStride && a.stepMode == b.stepMode &&
+           std::equal(a.attributes.begin(), a.attributes.end(), b.attributes.begin(), b.attributes.end(),
+                      [](const rhi::VertexAttribute& x, const rhi::VertexAttribute& y) {
+                          return x.format == y.format && x.offset == y.offset && x.shaderLocation == y.shaderLocation;
+                      });
+}
+
+bool same(const rhi::DepthStencilState& a, const rhi::DepthStencilState& b) {
+    return a.format == b.format && a.depthWriteEnabled == b.depthWriteEnabled && a.depthCompare == b.depthCompare &&
+           a.depthBias == b.depthBias && a.depthBiasSlopeScale == b.depthBiasSlopeScale;
+}
+
+bool same(const rhi::ColorTargetState& a, const rhi::ColorTargetState& b) {
+    return a.format == b.format && a.blend == b.blend && a.writeMask == b.writeMask;
+}
+
+template <class T>
+bool same(const std::optional<T>& a, const std::optional<T>& b) {
+    return a.has_value() == b.has_value() && (!a || same(*a, *b));
+}
+
+template <class T>
+bool same(const std::vector<T>& a, const std::vector<T>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const T& x, const T& y) { return same(x, y); });
+}
 
 }  // namespace
 
-std::uint64_t codeHash(std::span<const std::uint32_t> code) {
-    Hash hash;
-    for (const std::uint32_t word : code) hash.add(word, 4);
-    return hash.value();
+bool samePipeline(const rhi::RenderPipelineDescriptor& a, const rhi::RenderPipelineDescriptor& b) {
+    return a.layout == b.layout && same(a.vertex, b.vertex) && same(a.vertexBuffers, b.vertexBuffers) &&
+           a.primitive.topology == b.primitive.topology && a.primitive.frontFace == b.primitive.frontFace &&
+           a.primitive.cullMode == b.primitive.cullMode && a.primitive.unclippedDepth == b.primitive.unclippedDepth &&
+           same(a.depthStencil, b.depthStencil) && a.multisample.count == b.multisample.count &&
+           a.multisample.mask == b.multisample.mask &&
+           a.multisample.alphaToCoverageEnabled == b.multisample.alphaToCoverageEnabled &&
+           same(a.fragment, b.fragment) && same(a.targets, b.targets);
 }
 
-std::uint64_t pipelineKey(const rhi::RenderPipelineDescriptor& descriptor, std::uint64_t vertex,
-                          std::uint64_t fragment) {
-    Hash hash;
-    hash.add(vertex);
-    hash.add(descriptor.vertex.constants);
-    hash.add(descriptor.vertexBuffers.size());
-    for (const rhi::VertexBufferLayout& buffer : descriptor.vertexBuffers) {
-        hash.add(buffer.arrayStride, 4);
-        hash.add(buffer.stepMode);
-        hash.add(buffer.attributes.size());
-        for (const rhi::VertexAttribute& attribute : buffer.attributes) {
-            hash.add(attribute.format);
-            hash.add(attribute.offset, 4);
-            hash.add(attribute.shaderLocation, 4);
-        }
-    }
-    hash.add(descriptor.primitive.topology);
-    hash.add(descriptor.primitive.frontFace);
-    hash.add(descriptor.primitive.cullMode);
-    hash.add(descriptor.primitive.unclippedDepth);
-    hash.add(descriptor.depthStencil.has_value());
-    if (const auto& depth = descriptor.depthStencil) {
-        hash.add(depth->format);
-        hash.add(depth->depthWriteEnabled);
-        hash.add(depth->depthCompare);
-        hash.add(depth->depthBias);
-        hash.add(depth->depthBiasSlopeScale);
-    }
-    hash.add(descriptor.multisample.count, 4);
-    hash.add(descriptor.multisample.mask, 4);
-    hash.add(descriptor.multisample.alphaToCoverageEnabled);
-    hash.add(descriptor.fragment.has_value());
-    if (descriptor.fragment) {
-        hash.add(fragment);
-        hash.add(descriptor.fragment->constants);
-    }
-    hash.add(descriptor.targets.size());
-    for (const rhi::ColorTargetState& target : descriptor.targets) {
-        hash.add(target.format);
-        hash.add(target.writeMask);
-        hash.add(target.blend.has_value());
-        if (target.blend) {
-            hash.add(target.blend->color);
-            hash.add(target.blend->alpha);
-        }
-    }
-    return hash.value();
+bool samePipeline(const rhi::ComputePipelineDescriptor& a, const rhi::ComputePipelineDescriptor& b) {
+    return a.layout == b.layout && same(a.compute, b.compute);
 }
 
-Pipelines::Pipelines(rhi::Device device, PipelineMode mode, std::function<void(std::uint64_t)> beforeMaking)
+Pipelines::Pipelines(rhi::Device device, PipelineMode mode, std::function<void(const std::string&)> beforeMaking)
     : device_(std::move(device)), mode_(mode), beforeMaking_(std::move(beforeMaking)) {}
 
 Pipelines::~Pipelines() = default;
 
-Pipelines::Handle Pipelines::request(rhi::RenderPipelineDescriptor descriptor) {
-    const auto hashOf = [&](const rhi::ShaderModule& module) {
-        const auto [known, isNew] = codeHashes_.try_emplace(module.get(), module, 0);
-        if (isNew) known->second.second = codeHash(module.code());
-        return known->second.second;
+Pipelines::Handle Pipelines::request(Descriptor descriptor) {
+    const auto isWanted = [&](const std::shared_ptr<Entry>& entry) {
+        if (entry->descriptor_.index() != descriptor.index()) return false;
+        return std::visit(
+            [&](const auto& wanted) {
+                return samePipeline(std::get<std::decay_t<decltype(wanted)>>(entry->descriptor_), wanted);
+            },
+            descriptor);
     };
-    const std::uint64_t key = pipelineKey(descriptor, hashOf(descriptor.vertex.module),
-                                          descriptor.fragment ? hashOf(descriptor.fragment->module) : 0);
-    std::shared_ptr<Entry>& entry = entries_[key];
-    if (entry && entry->state() != Entry::State::Failed) return entry;
-    entry = std::make_shared<Entry>();
-    entry->key_ = key;
-    Job job{entry, std::move(descriptor)};
+    const auto known = std::find_if(entries_.begin(), entries_.end(), isWanted);
+    if (known != entries_.end() && (*known)->state() != Entry::State::Failed) return *known;
+    auto entry = std::make_shared<Entry>(std::move(descriptor));
+    if (known != entries_.end()) {
+        *known = entry;  // tried again
+    } else {
+        entries_.push_back(entry);
+    }
     {
         const std::lock_guard lock(mutex_);
         ++pending_;
         if (mode_ == PipelineMode::Background) {
-            jobs_.push_back(std::move(job));
+            jobs_.push_back(entry);
             // The thread is there once it is needed.
             if (!worker_.joinable()) worker_ = std::jthread([this](const std::stop_token& stop) { work(stop); });
         }
@@ -132,23 +87,33 @@ Pipelines::Handle Pipelines::request(rhi::RenderPipelineDescriptor descriptor) {
     if (mode_ == PipelineMode::Background) {
         changed_.notify_all();
     } else {
-        make(job);
+        make(*entry);
     }
     return entry;
 }
 
-void Pipelines::make(Job& job) {
-    if (beforeMaking_) beforeMaking_(job.entry->key_);
-    auto made = device_.createRenderPipeline(job.descriptor);
-    if (made) {
-        job.entry->pipeline_ = *made;
+void Pipelines::make(Entry& entry) {
+    const auto keep = [&](auto made, auto& pipeline) {
+        if (made) {
+            pipeline = *made;
+        } else {
+            entry.error_ = made.error();
+        }
+        return made.has_value();
+    };
+    bool isReady = false;
+    if (const auto* render = std::get_if<rhi::RenderPipelineDescriptor>(&entry.descriptor_)) {
+        if (beforeMaking_) beforeMaking_(render->label);
+        isReady = keep(device_.createRenderPipeline(*render), entry.render_);
     } else {
-        job.entry->error_ = made.error();
+        const auto& compute = std::get<rhi::ComputePipelineDescriptor>(entry.descriptor_);
+        if (beforeMaking_) beforeMaking_(compute.label);
+        isReady = keep(device_.createComputePipeline(compute), entry.compute_);
     }
     {
         const std::lock_guard lock(mutex_);
-        job.entry->state_.store(made ? Entry::State::Ready : Entry::State::Failed, std::memory_order_release);
-        made_ += made ? 1 : 0;
+        entry.state_.store(isReady ? Entry::State::Ready : Entry::State::Failed, std::memory_order_release);
+        made_ += isReady ? 1 : 0;
         --pending_;
     }
     changed_.notify_all();
@@ -156,14 +121,14 @@ void Pipelines::make(Job& job) {
 
 void Pipelines::work(const std::stop_token& stop) {
     while (true) {
-        Job job;
+        std::shared_ptr<Entry> entry;
         {
             std::unique_lock lock(mutex_);
             if (!changed_.wait(lock, stop, [&] { return !jobs_.empty(); }) || stop.stop_requested()) return;
-            job = std::move(jobs_.front());
+            entry = std::move(jobs_.front());
             jobs_.pop_front();
         }
-        make(job);
+        make(*entry);
     }
 }
 

@@ -15,7 +15,7 @@ Result<void> Renderer::State::buildGraph(const Scene& scene, const FrameSettings
     wanted.depth = passes::DepthConvention::Reversed;
     wanted.settings = settings.settings;
     // What a tree does not ask for is not lent: a warning about it would not be the caller's doing.
-    for (const passes::ImportInfo& import : tree->imports()) {
+    for (const passes::WantedImport& import : tree->imports()) {
         if (import.name == "EnvIrradiance")
             wanted.imports[import.name] = {true, rhi::TextureFormat::RGBA16Float, {16, 16, 6}, 1};
         if (import.name == "DisplayConstants" || import.name == "FrameConstants")
@@ -23,6 +23,8 @@ Result<void> Renderer::State::buildGraph(const Scene& scene, const FrameSettings
     }
     for (const auto& [name, texture] : settings.imports)
         if (texture) wanted.imports[name] = {true, texture.format(), texture.size(), texture.sampleCount()};
+    for (const auto& [name, buffer] : settings.buffers)
+        if (buffer) wanted.imports[name] = {true, rhi::TextureFormat::Undefined, {}, 1};
     // Nobody can ask this renderer for its depth, so that need not outlive the passes that test against it.
     for (const std::string& name : tree->exports())
         if (name == "Depth") wanted.unwantedExports.push_back(name);
@@ -81,7 +83,7 @@ Result<void> Renderer::State::prepareObjects(Scene& scene, const FrameViews& fra
         if (!geometry) return tl::unexpected(geometry.error());
         state.geometry = *geometry;
         state.material = &object.material.compile();
-        if (auto updated = updateLook(state, object); !updated) return updated;
+        if (auto updated = updatePipelines(state, object); !updated) return updated;
         if (!state.block) {
             auto buffer = device.createBuffer({.label = object.name + " object",
                                                .size = sizeof(ObjectBlock),

@@ -59,6 +59,15 @@ Result<Renderer> Renderer::create(Descriptor descriptor) {
     State& state = *renderer.state_;
     state.tree = descriptor.tree;
     State* raw = renderer.state_.get();
+    // A host that draws lists itself has its own class of that name.
+    descriptor.classes.add(raw->drawListClass());
+    for (MaterialPass& pass : descriptor.materialPasses) {
+        const std::string name = pass.info.name;
+        if (pass.dispatch && descriptor.classes.add(raw->dispatchClass(std::move(pass)))) continue;
+        return tl::unexpected(Diagnostic{.code = "N004",
+                                         .text = "the material pass '" + name + "' cannot be registered",
+                                         .hint = "give it a name that no other class has, and a dispatch function"});
+    }
     state.graph = passes::Graph({.device = descriptor.device,
                                  .shaders = [raw](const std::string& file) { return raw->module(file); },
                                  .measure = descriptor.measure,
@@ -115,17 +124,25 @@ Result<void> Renderer::encode(Scene& scene, const FrameSettings& settings, rhi::
     imports.buffers["DisplayConstants"] = state.displayBlock;
     imports.buffers["FrameConstants"] = state.views[0].block;
     for (const auto& [name, texture] : settings.imports) imports.textures[name] = texture;
-    auto recorded = state.graph.record(encoder, imports,
-                                       [&](passes::RasterContext& context) { return state.draw(scene, context); });
+    for (const auto& [name, buffer] : settings.buffers) imports.buffers[name] = buffer;
+    state.recorded = &scene;
+    auto recorded = state.graph.record(encoder, imports);
+    state.recorded = nullptr;
     if (!recorded) return tl::unexpected(recorded.error());
     return {};
 }
 
 rhi::Texture Renderer::displayTexture() const {
-    return state_->graph.exported("LdrColor");
+    return exported("LdrColor");
 }
 rhi::Texture Renderer::colorTexture() const {
-    return state_->graph.exported("HdrColor");
+    return exported("HdrColor");
+}
+rhi::Texture Renderer::exported(const std::string& name) const {
+    return state_->graph.exported(name);
+}
+rhi::Buffer Renderer::exportedBuffer(const std::string& name) const {
+    return state_->graph.exportedBuffer(name);
 }
 const passes::Plan& Renderer::plan() const {
     return state_->graph.plan();

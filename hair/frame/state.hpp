@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What a Renderer keeps between frames. Its work is split by topic: renderer_prepare.cpp (graph, views, objects),
-// renderer_looks.cpp (materials to pipelines), renderer_draw.cpp (bind groups, draws), renderer.cpp (the frame and its
-// readback).
+// What a Renderer keeps between frames. Its work is split by topic: prepare.cpp (graph, views, objects),
+// object_pipelines.cpp (materials to pipelines), draw.cpp (bind groups, draws, dispatches), renderer.cpp (the frame and
+// its readback).
 #pragma once
 
 #include "material/binding.hpp"
@@ -11,6 +11,7 @@
 
 #include <pelage/hair/renderer.hpp>
 
+#include <array>
 #include <optional>
 
 namespace pelage::hair {
@@ -28,20 +29,20 @@ struct ObjectBlock {
     glm::vec4 lineWidth = {};
 };
 
-// An object as far as pipelines go: the shaders of its material as they were, and a pipeline for each pass that draws
-// one of them. It is drawn when all of them are ready, never by half.
-struct Look {
+// The pipelines of one object: of the shaders of its material as they were, one for each pass that draws or dispatches
+// one of them. The object is drawn when all of them are ready, never by half.
+struct ObjectPipelines {
     std::shared_ptr<const materials::MaterialType> type = {};
     bool strands = false, isEmpty = false;
     bool shadowsOff = false, environmentOff = false;
     std::vector<materials::CompiledMaterial::Shader> shaders = {};
-    std::uint64_t graph = 0;  // the build of the graph that `draws` is for
-    struct Draw {
-        std::string pass = {};
-        std::uint32_t shader = 0;
+    std::uint64_t graph = 0;  // the build of the graph that `uses` is for
+    struct Use {
+        std::uint32_t pass = 0;    // in the plan
+        std::uint32_t shader = 0;  // in `shaders`
         Pipelines::Handle pipeline = {};
     };
-    std::vector<Draw> draws = {};
+    std::vector<Use> uses = {};
     bool failureSaid = false;
 
     bool isReady() const;
@@ -53,7 +54,7 @@ struct ObjectState {
     rhi::Buffer block = {};
     std::map<const void*, rhi::BindGroup> groups = {};  // by layout
     rhi::Buffer sortedIndices = {};
-    std::optional<Look> shown = {}, next = {};  // `next` waits for its pipelines
+    std::optional<ObjectPipelines> shown = {}, next = {};  // `next` waits for its pipelines
     float lineWidthMain = 1, lineWidthShadow = 1;
     const GpuGeometry* geometry = nullptr;
     const materials::CompiledMaterial* material = nullptr;
@@ -63,6 +64,14 @@ struct ViewState {
     rhi::Buffer block = {};
     std::map<const void*, rhi::BindGroup> groups = {};
 };
+
+/// By set: frame, pass, material, object.
+using ObjectGroups = std::array<rhi::BindGroup, 4>;
+template <class Pipeline>
+std::array<rhi::BindGroupLayout, 4> layoutsOf(const Pipeline& pipeline) {
+    return {pipeline.bindGroupLayout(0), pipeline.bindGroupLayout(1), pipeline.bindGroupLayout(2),
+            pipeline.bindGroupLayout(3)};
+}
 
 struct Renderer::State {
     rhi::Device device;
@@ -74,6 +83,7 @@ struct Renderer::State {
     std::map<std::string, rhi::ShaderModule> modules;
     PipelineMode mode = PipelineMode::Synchronous;
     Pipelines pipelines;
+    const Scene* recorded = nullptr;  // during Graph::record
     std::vector<ObjectState> objects;
     std::vector<ViewState> views;  // 0: main, then shadow layers
     rhi::Buffer displayBlock;
@@ -99,21 +109,35 @@ struct Renderer::State {
                              std::uint32_t& shadowLights);
     Result<void> prepareObjects(Scene& scene, const FrameViews& frameViews);
     Result<void> writeView(std::size_t index, const FrameBlock& block);
-    // renderer_looks.cpp
-    Result<void> updateLook(ObjectState& object, const Object& from);
+    // object_pipelines.cpp
+    Result<void> updatePipelines(ObjectState& object, const Object& from);
     Result<void> checkType(const std::shared_ptr<const materials::MaterialType>& type);
-    bool looksLike(const Look& look, const ObjectState& object, const materials::CompiledMaterial& material) const;
-    Result<void> requestPipelines(Look& look, const std::string& label);
-    Result<rhi::RenderPipelineDescriptor> describePipeline(const Look& look,
+    bool isFor(const ObjectPipelines& set, const ObjectState& object,
+               const materials::CompiledMaterial& material) const;
+    Result<void> requestPipelines(ObjectPipelines& set, const std::string& label);
+    std::vector<rhi::ConstantEntry> constantsOf(const ObjectPipelines& set,
+                                                const materials::CompiledMaterial::Shader& shader,
+                                                const passes::PlanPass& pass, std::uint32_t samples) const;
+    Result<rhi::ComputePipelineDescriptor> describeCompute(const ObjectPipelines& set,
                                                                 const materials::CompiledMaterial::Shader& shader,
-                                                                const passes::Targets& targets);
-    // renderer_draw.cpp
-    Result<rhi::BindGroup> materialGroup(std::size_t index, const Look& look, std::uint32_t shader,
+                                                                const passes::PlanPass& pass);
+    Result<rhi::RenderPipelineDescriptor> describePipeline(const ObjectPipelines& set,
+                                                                const materials::CompiledMaterial::Shader& shader,
+                                                                const passes::PlanPass& pass);
+    // draw.cpp
+    Result<rhi::BindGroup> materialGroup(std::size_t index, const ObjectPipelines& set, std::uint32_t shader,
                                           const rhi::BindGroupLayout& layout);
     Result<rhi::BindGroup> groupFor(std::map<const void*, rhi::BindGroup>& cache,
                                          const rhi::BindGroupLayout& layout, const rhi::Buffer& buffer,
                                          std::uint64_t size, const char* label);
-    Result<void> draw(Scene& scene, passes::RasterContext& context);
+    /// The groups of the sets that an object's shader uses in a pass; empty where its layout is.
+    Result<ObjectGroups> groupsOf(std::size_t index, std::uint32_t shader, std::size_t view,
+                                       const passes::PassContext& context,
+                                       const std::array<rhi::BindGroupLayout, 4>& layouts);
+    /// What records the raster passes: the objects of `recorded` whose materials have a shader for the pass's list.
+    passes::PassClass drawListClass();
+    /// What records the passes of a host's class that dispatches: the same objects, by their compute shaders.
+    passes::PassClass dispatchClass(MaterialPass pass);
 };
 
 }  // namespace pelage::hair

@@ -18,7 +18,7 @@ std::optional<std::uint32_t> indexOf(const std::vector<T>& items, const std::str
 }
 
 // What "builtin.asset" means for a texture input: the asset's own map, or a constant when it brings none.
-rhi::TextureView assetMap(const std::string& name, const GpuGeometry& geometry, std::string& standIn) {
+rhi::TextureView assetMap(const std::string& name, const GpuGeometry& geometry, std::string_view& standIn) {
     if (name == "colorMap" || name == "opacityMap") return geometry.colorMap;
     if (name == "strandIdMap") {
         standIn = "builtin.grey";
@@ -60,7 +60,7 @@ Result<MaterialBindings::Entry> MaterialBindings::resolve(const rhi::BindGroupLa
         } else if (slot.type == rhi::BindingType::UniformBuffer) {
             std::uint32_t size = 0;
             // Each stage declares the members it reads, at the same offsets.
-            for (const rhi::ShaderModule& module : {modules.vertex, modules.fragment}) {
+            for (const rhi::ShaderModule& module : {modules.vertex, modules.fragment, modules.compute}) {
                 const rhi::ReflectedBinding* block = bindingAt(module, slot.binding);
                 if (!block) continue;
                 entry.blockBinding = slot.binding;
@@ -79,8 +79,10 @@ Result<MaterialBindings::Entry> MaterialBindings::resolve(const rhi::BindGroupLa
             entry.block = *buffer;
         } else {
             // Not by the layout's name: layouts are shared, and the names in one may be those of another shader.
-            const rhi::ReflectedBinding* declared = bindingAt(modules.fragment, slot.binding);
-            if (!declared) declared = bindingAt(modules.vertex, slot.binding);
+            const rhi::ReflectedBinding* declared = nullptr;
+            for (const rhi::ShaderModule& module : {modules.fragment, modules.vertex, modules.compute}) {
+                if (!declared) declared = bindingAt(module, slot.binding);
+            }
             const auto texture = declared ? indexOf(material.textures, declared->entry.name) : std::nullopt;
             if (!texture) continue;
             const auto input = indexOf(type->inputs(), declared->entry.name);
@@ -103,22 +105,25 @@ void MaterialBindings::fillBlock(const Entry& entry, const materials::CompiledMa
     }
 }
 
-Result<void> MaterialBindings::findViews(const Entry& entry, const materials::CompiledMaterial& material,
+Result<void> MaterialBindings::findViews(Entry& entry, const materials::CompiledMaterial& material,
                                           const GpuGeometry& geometry, Uploads& uploads) {
     views_.clear();
-    for (const TextureSlot& slot : entry.textures) {
+    for (TextureSlot& slot : entry.textures) {
         const auto& texture = material.textures[slot.texture];
-        std::string reference = texture.value.text.empty() ? "builtin.white" : texture.value.text;
+        std::string_view reference = texture.value.text;
+        if (reference.empty()) reference = "builtin.white";
         rhi::TextureView view;
         if (reference == "builtin.asset") {
             reference = "builtin.white";
             view = assetMap(texture.name, geometry, reference);
         }
-        if (!view) {
-            auto loaded = uploads.texture(reference, slot.srgb);
+        if (!view && (slot.reference != reference || !slot.view)) {
+            auto loaded = uploads.texture(std::string(reference), slot.srgb);
             if (!loaded) return tl::unexpected(loaded.error());
-            view = *loaded;
+            slot.reference = reference;
+            slot.view = *loaded;
         }
+        if (!view) view = slot.view;
         views_.push_back(std::move(view));
     }
     return {};

@@ -28,7 +28,7 @@ public:
         auto operator<=>(const Key&) const = default;
     };
     struct Modules {
-        rhi::ShaderModule vertex = {}, fragment = {};
+        rhi::ShaderModule vertex = {}, fragment = {}, compute = {};  // empty where there is none
     };
     /// `modules` is asked only when the key is new or has another material type than before.
     Result<rhi::BindGroup> bindGroup(const Key& key, const rhi::BindGroupLayout& layout,
@@ -44,6 +44,9 @@ private:
     struct TextureSlot {
         std::uint32_t binding = 0, texture = 0;  // index in CompiledMaterial::textures
         bool srgb = false;
+        // What was found last, and by which name: nothing is looked up again while a material says the same.
+        std::string reference = {};
+        rhi::TextureView view = {};
     };
     struct Entry {
         std::shared_ptr<const materials::MaterialType> type = {};
@@ -61,8 +64,8 @@ private:
                            const std::shared_ptr<const materials::MaterialType>& type,
                            const materials::CompiledMaterial& material, const Modules& modules) const;
     void fillBlock(const Entry& entry, const materials::CompiledMaterial& material);
-    Result<void> findViews(const Entry& entry, const materials::CompiledMaterial& material,
-                            const GpuGeometry& geometry, Uploads& uploads);
+    Result<void> findViews(Entry& entry, const materials::CompiledMaterial& material, const GpuGeometry& geometry,
+                            Uploads& uploads);
 
     rhi::Device device_;
     rhi::Sampler sampler_;

@@ -187,8 +187,8 @@ Diagnostics checkShaders(const materials::MaterialType& type,
     std::set<std::string> seen;
     bool all = true;
     for (const materials::ShaderUse& use : type.shaders()) {
-        for (const std::string& file : {use.vertex, use.fragment}) {
-            if (file.empty() || !seen.insert(file).second) continue;
+        for (const std::string& file : use.files()) {
+            if (!seen.insert(file).second) continue;
             const rhi::ShaderModule made = module(file);
             all = all && made;
             if (made) checker.check(made);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: MIT
-// From property values to what the renderer needs. Only what depends on a changed property is touched, and the two
-// versions grow only when something really became different.
+// From property values to what the renderer needs. Only what depends on a changed property is touched.
 #include "convert.hpp"
 #include "link.hpp"
 
@@ -29,7 +28,6 @@ public:
             for (const std::size_t option : linked_.shaderOptions[i]) shader.constants.push_back(out_.options[option]);
             out_.shaders.push_back(std::move(shader));
         }
-        inputsChanged = pipelineChanged = true;
     }
 
     void drive(const Target& target, const Value& value) {
@@ -41,7 +39,7 @@ public:
                 driveOption(target.index, value);
                 break;
             case Target::Kind::ShaderEnabled:
-                change(out_.shaders[target.index].enabled, value.integer != 0);
+                out_.shaders[target.index].enabled = value.integer != 0;
                 break;
             case Target::Kind::ShaderState:
             case Target::Kind::None:
@@ -57,39 +55,25 @@ public:
         state.depthWrite = overlay.depthWrite.value_or(state.depthWrite);
         state.blend = overlay.blend.value_or(state.blend);
         state.alphaToCoverage = overlay.alphaToCoverage.value_or(state.alphaToCoverage);
-        change(out_.shaders[target.index].state, state);
+        out_.shaders[target.index].state = state;
     }
-
-    bool inputsChanged = false, pipelineChanged = false;
 
 private:
-    template <class T>
-    void change(T& now, const T& next) {
-        if (now == next) return;
-        now = next;
-        pipelineChanged = true;
-    }
-
     void driveInput(std::size_t index, const Value& value) {
         // A functor that made a NaN must not reach the GPU: the last good value stays.
         for (const float number : value.number) {
             if (!std::isfinite(number)) return;
         }
         const Input& input = linked_.inputs[index];
-        Value next = value;
-        next.type = input.type;
         Value& now = (isTexture(input.type) ? out_.textures : out_.inputs)[linked_.inputSlots[index]].value;
-        if (now == next) return;
-        now = std::move(next);
-        inputsChanged = true;
+        now = value;
+        now.type = input.type;
     }
 
     void driveOption(std::size_t index, const Value& value) {
         const Option& option = linked_.options[index];
         const auto next = static_cast<double>(std::clamp(value.integer, option.min, option.max));
-        if (out_.options[index].value == next) return;
         out_.options[index].value = next;
-        pipelineChanged = true;
         for (std::size_t i = 0; i < linked_.shaders.size(); ++i) {
             const std::vector<std::size_t>& used = linked_.shaderOptions[i];
             for (std::size_t k = 0; k < used.size(); ++k) {
@@ -129,8 +113,6 @@ const CompiledMaterial& Material::compile() {
             if (port < use.out.size()) compiler.overlay(use.out[port], overlay);
         }
     }
-    compiled_.inputsVersion += compiler.inputsChanged ? 1 : 0;
-    compiled_.pipelineVersion += compiler.pipelineChanged ? 1 : 0;
     first_ = false;
     dirty_.assign(dirty_.size(), false);
     return compiled_;

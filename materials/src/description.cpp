@@ -138,6 +138,7 @@ ShaderDescription describeShader(const Member& member) {
     out.drawList = value.find("drawList")->place;
     out.shader.vertex = text(value, "vertex");
     out.shader.fragment = text(value, "fragment");
+    out.shader.compute = text(value, "compute");
     if (const json::Value* enabled = value.find("enabled")) out.shader.enabledByDefault = enabled->boolean;
     if (const json::Value* state = value.find("state")) out.shader.state = describeState(*state);
     if (const json::Value* options = value.find("options")) {

@@ -134,6 +134,11 @@ std::optional<Target> Linker::outputTarget(const FunctorDescription& description
         error("M011", word.place, who + ": unknown option " + quoted(target), nameHint(target, namesOf(out_.options)));
     } else {
         const auto shader = indexOfName(out_.shaders, target);
+        if (shader && part == "state" && out_.shaders[*shader].isCompute()) {
+            error("M003", word.place, who + ": " + quoted(target) + " is a compute shader, which has no state",
+                  "delete the connection, or drive its \"enabled\"");
+            return {};
+        }
         if (shader) return Target{part == "state" ? Target::Kind::ShaderState : Target::Kind::ShaderEnabled, *shader};
         error("M015", word.place, who + ": unknown shader " + quoted(target), nameHint(target, namesOf(out_.shaders)));
     }

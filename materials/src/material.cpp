@@ -24,9 +24,7 @@ void Material::reset() {
     if (values_.empty()) dirty_.assign(properties.size(), true);
     values_.resize(properties.size());
     for (std::size_t i = 0; i < properties.size(); ++i) {
-        if (values_[i] == properties[i].defaultValue) continue;
-        values_[i] = properties[i].defaultValue;
-        dirty_[i] = true;
+        put(i, properties[i].defaultValue);
     }
 }
 

@@ -75,11 +75,19 @@ Diagnostics MaterialType::unknownDrawLists(const std::vector<std::string>& known
         const json::Place place = linked_->drawListPlaces[i];
         out.add({Severity::Warning, "M017", linked_->file, place.line, place.column,
                  "shader " + quoted(shader.name) + ": the pass tree has no draw list " + quoted(shader.drawList) +
-                     "; nothing draws it",
+                     "; nothing " + (shader.isCompute() ? "dispatches" : "draws") + " it",
                  nameHint(shader.drawList, known)});
     }
     return out;
 }
+std::vector<std::string> ShaderUse::files() const {
+    std::vector<std::string> out;
+    for (const std::string* file : {&vertex, &fragment, &compute}) {
+        if (!file->empty()) out.push_back(*file);
+    }
+    return out;
+}
+
 const Diagnostics& MaterialType::warnings() const {
     return linked_->warnings;
 }

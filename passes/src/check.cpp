@@ -46,19 +46,16 @@ private:
     void passWords(const PassDeclaration& pass) {
         const std::string title = "pass '" + pass.name + "'";
         const bool isClass = !pass.passClass.empty();
-        if (isClass) {
-            if (!pass.drawList.empty())
-                reporter_.error(pass.drawListPlace, "P024", title + " draws no list: its class records it",
-                                "remove \"drawList\"");
-        } else if (pass.kind == PassKind::Raster) {
-            if (pass.drawList.empty()) {
-                reporter_.error(pass.place, "P010", "raster " + title + " has no \"drawList\"");
-            } else if (!has(namesOf(tree_.drawLists), pass.drawList)) {
-                reporter_.error(pass.drawListPlace, "P011", title + ": unknown draw list '" + pass.drawList + "'",
-                                didYouMean(pass.drawList, namesOf(tree_.drawLists), "add it to \"drawLists\""));
-            }
+        // What a class does with a list is its own affair: it draws it, or dispatches the materials' compute shaders.
+        const bool listed = isClass || pass.kind == PassKind::Raster;
+        if (listed && !pass.drawList.empty() && !has(namesOf(tree_.drawLists), pass.drawList)) {
+            reporter_.error(pass.drawListPlace, "P011", title + ": unknown draw list '" + pass.drawList + "'",
+                            didYouMean(pass.drawList, namesOf(tree_.drawLists), "add it to \"drawLists\""));
+        }
+        if (!isClass && pass.kind == PassKind::Raster) {
+            if (pass.drawList.empty()) reporter_.error(pass.place, "P010", "raster " + title + " has no \"drawList\"");
             if (pass.view.empty()) reporter_.error(pass.place, "P024", "raster " + title + " has no \"view\"");
-        } else {
+        } else if (!isClass) {
             if (!pass.drawList.empty())
                 reporter_.error(pass.drawListPlace, "P024", title + " draws no list: it is not a raster pass",
                                 "remove \"drawList\"");
@@ -91,6 +88,10 @@ private:
             }
         }
         for (const ConstantDeclaration& constant : pass.constants) settingName(constant.value);
+        if (!isClass && pass.kind == PassKind::Copy && !pass.constants.empty()) {
+            reporter_.error(pass.constants.front().place, "P024", title + " has \"constants\" but no shader",
+                            "remove them");
+        }
         for (const ParameterDeclaration& parameter : pass.parameters) settingName(parameter.value);
     }
 
@@ -149,6 +150,9 @@ private:
             reporter_.error(slot.place, "P021", title + " begins an image but says not how",
                             R"(add "clear": ..., or "load": "dontCare" when every pixel is written)");
         }
+        if (slot.level != none && isBufferUse(slot.use))
+            reporter_.error(slot.levelPlace, "P061", title + " is " + use + ", and a buffer has no mip levels",
+                            "remove it");
         if (slot.connectPlace.line == 0 && !slot.optional) {
             reporter_.error(slot.place, "P013", title + " is not connected",
                             R"(connect it, or mark it "optional": true)");
@@ -228,6 +232,8 @@ private:
         number(attachment.size.width, "size of " + title);
         number(attachment.size.height, "size of " + title);
         number(attachment.bytes.count, "size of " + title);
+        number(attachment.mipLevels, "mipLevels of " + title);
+        if (attachment.size.depth) threeDimensional(attachment, title);
         if (!attachment.layersView.empty() && !tree_.view(attachment.layersView)) {
             reporter_.error(attachment.layersPlace, "P029",
                             "layers of " + title + ": unknown view '" + attachment.layersView + "'",
@@ -235,6 +241,20 @@ private:
         }
         like(attachment.size, title);
         like(attachment.bytes.pixels, title);
+    }
+
+    // What a 3D image cannot have: nothing can be drawn into it, so nothing can begin its history either.
+    void threeDimensional(const AttachmentDeclaration& attachment, const std::string& title) {
+        number(*attachment.size.depth, "depth of " + title);
+        const auto refuse = [&](Place place, const std::string& what) {
+            reporter_.error(place, "P062", title + " is 3D: it has no " + what,
+                            "remove it, or the \"depth\" of its size");
+        };
+        const bool sampled = !attachment.samples.setting.empty() || attachment.samples.number != 1;
+        if (attachment.layers > 1 || !attachment.layersView.empty()) refuse(attachment.layersPlace, "layers");
+        if (sampled) refuse(attachment.samples.place, "samples");
+        if (attachment.history) refuse(attachment.historyPlace, "history");
+        if (rhi::isDepth(attachment.formats.front())) refuse(attachment.formatPlace, "depth format");
     }
 
     void like(const SizeDeclaration& size, const std::string& title) {
@@ -330,6 +350,11 @@ bool fits(PassKind kind, SlotUse use) {
             return kind == PassKind::Copy;
     }
     return false;
+}
+
+std::uint32_t levelOf(const SlotDeclaration& slot) {
+    const bool one = slot.use == SlotUse::Color || slot.use == SlotUse::Depth || slot.use == SlotUse::Storage;
+    return slot.level == none && one ? 0 : slot.level;
 }
 
 bool isBufferUse(SlotUse use) {

@@ -18,6 +18,8 @@ std::string_view word(SlotUse use);
 std::string_view word(PassKind kind);
 /// Whether a pass of this kind can have a slot of this use.
 bool fits(PassKind kind, SlotUse use);
+/// The mip level that a slot on an image uses: what it says, else the first where one use has one level; none: all.
+std::uint32_t levelOf(const SlotDeclaration& slot);
 /// Whether the slot takes a buffer, whatever is connected to it; storage and copy take either.
 bool isBufferUse(SlotUse use);
 

@@ -315,6 +315,8 @@ void warnUnused(PassTree::Description& tree, Reporter& reporter) {
         value(attachment.samples);
         value(attachment.size.width);
         value(attachment.size.height);
+        value(attachment.mipLevels);
+        if (attachment.size.depth) value(*attachment.size.depth);
     }
     const auto warn = [&](const std::string& key, const std::string& what, Place place) {
         if (!used.count(key)) reporter.warning(place, "P047", what + " is never used", "use it or remove it");

@@ -87,8 +87,8 @@ bool PassTree::Description::canBeDisabled(const PassDeclaration& one) const {
 }
 
 const std::vector<std::string>& constantNames() {
-    static const std::vector<std::string> names{"white",    "black",         "transparent",
-                                                "depthFar", "depthFarArray", "blackCube"};
+    static const std::vector<std::string> names{"white",         "black",     "transparent",  "depthFar",
+                                                "depthFarArray", "blackCube", "transparent3D"};
     return names;
 }
 

@@ -99,8 +99,9 @@ struct SizeDeclaration {
     enum class Kind : std::uint8_t { Frame, Like, Square, Fixed } kind = Kind::Frame;
     double scale = 1;  // Frame, Like
     std::string like = {};
-    std::uint32_t likeIndex = none;           // of the attachment or import
-    NumberOrSetting width = {}, height = {};  // Square uses width
+    std::uint32_t likeIndex = none;             // of the attachment or import
+    NumberOrSetting width = {}, height = {};    // Square uses width
+    std::optional<NumberOrSetting> depth = {};  // makes it 3D
     Place place = {};
 };
 
@@ -122,8 +123,10 @@ struct AttachmentDeclaration {
     std::string layersView = {};  // layers = number of these views
     std::uint32_t viewIndex = none;
     bool isBuffer = false, history = false;
+    NumberOrSetting mipLevels = {1};
+    bool allMipLevels = false;  // "full"
     BytesDeclaration bytes = {};
-    Place place = {}, formatPlace = {}, layersPlace = {};
+    Place place = {}, formatPlace = {}, layersPlace = {}, historyPlace = {};
 };
 
 struct SlotDeclaration {
@@ -136,7 +139,8 @@ struct SlotDeclaration {
     enum class DepthClear : std::uint8_t { Far, Near, Number } depthClear = DepthClear::Far;
     bool clearIsDepth = false;
     float depthValue = 0;
-    Place place = {}, clearPlace = {}, bindPlace = {};
+    std::uint32_t level = none;  // of the image; none: all when it is sampled, else the first
+    Place place = {}, clearPlace = {}, bindPlace = {}, levelPlace = {};
 
     std::vector<Reference> connect = {};  // the first that exists is taken
     Place connectPlace = {};              // of the value in "connect"; line 0: not connected
@@ -173,7 +177,6 @@ struct PassDeclaration {
     std::string name = {}, view = {}, drawList = {};
     std::string passClass = {};  // not empty: `kind` is the class's, known when the tree is compiled
     PassKind kind = PassKind::Raster;
-    PlanPass::Sort sort = PlanPass::Sort::None;
     bool enabled = true, forEachLayer = false, sideEffects = false;
     std::optional<Expression> enabledWhen = {};
     ShaderChoice shader = {};
@@ -184,6 +187,7 @@ struct PassDeclaration {
     std::uint32_t viewIndex = none;
     std::uint32_t dispatch[3] = {1, 1, 1}, threads[3] = {8, 8, 1};
     std::string dispatchLike = {}, dispatchIndirect = {};
+    std::uint32_t indirectOffset = 0;
     Place place = {}, namePlace = {}, viewPlace = {}, drawListPlace = {}, dispatchPlace = {}, indirectPlace = {},
           classPlace = {};
 

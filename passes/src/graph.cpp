@@ -13,7 +13,9 @@ Result<void> failure(const PassTree& tree, const Diagnostics& faults, const std:
 rhi::TextureDescriptor descriptorOf(const PlanResource& image) {
     return {.label = image.name,
             .size = image.extent,
+            .mipLevelCount = image.mipLevels,
             .sampleCount = image.samples,
+            .dimension = image.is3D ? rhi::TextureDimension::E3D : rhi::TextureDimension::E2D,
             .format = image.format,
             .usage = image.usage};
 }
@@ -36,7 +38,7 @@ Result<rhi::Texture> makeTexture(const rhi::Device& device, const PlanResource& 
 }
 
 // The images and buffers that the plan creates. Histories are made by makeHistories().
-Result<void> makeResources(Graph::State& state) {
+Result<void> makeResources(GraphState& state) {
     rhi::TransientHeap heap;
     if (state.plan.heapBytes > 0) {
         auto made = state.device.createTransientHeap({.label = "transient images", .size = state.plan.heapBytes});
@@ -67,8 +69,8 @@ Result<void> makeResources(Graph::State& state) {
 // What the host says in words and numbers; its callbacks cannot be compared.
 bool same(const HostDescription& a, const HostDescription& b) {
     return a.extent == b.extent && a.depth == b.depth && a.settings == b.settings && a.imports == b.imports &&
-           a.unwantedExports == b.unwantedExports && a.maxSide == b.maxSide && a.maxLayers == b.maxLayers &&
-           a.maxBytes == b.maxBytes;
+           a.unwantedExports == b.unwantedExports && a.maxSide == b.maxSide && a.maxSide3D == b.maxSide3D &&
+           a.maxLayers == b.maxLayers && a.maxBytes == b.maxBytes;
 }
 
 }  // namespace
@@ -91,7 +93,7 @@ Targets targetsOf(const Plan& plan, const PlanPass& pass) {
     return targets;
 }
 
-std::uint32_t Graph::State::layersOf(const PlanPass& pass) const {
+std::uint32_t GraphState::layersOf(const PlanPass& pass) const {
     if (!pass.forEachLayer) return 1;
     const auto found = plan.viewCounts.find(pass.view);
     return found == plan.viewCounts.end() ? 1 : found->second;
@@ -121,7 +123,7 @@ Result<void> Graph::build(const PassTree& tree, const HostDescription& host) {
     Result<Plan> plan = tree.compile(asked);
     if (!plan) return tl::unexpected(std::move(plan.error()));
 
-    auto state = std::make_shared<State>();
+    auto state = std::make_shared<GraphState>();
     state->device = descriptor_.device;
     state->plan = std::move(*plan);
     state->tree = tree.shared();
@@ -148,6 +150,7 @@ Result<void> Graph::build(const PassTree& tree, const HostDescription& host) {
         if (const auto queries = makeQueries(*state); !queries)
             return failure(tree, queries.error(), "the queries");
     }
+    describePasses(*state);
     Diagnostics out;
     Reporter reporter(tree.description().files, out);
     makePipelines(*state, descriptor_.shaders, descriptor_.classes, tree.description(), reporter);

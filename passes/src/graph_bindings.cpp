@@ -2,6 +2,8 @@
 // Bind groups of set 1: what the shader names is looked up among the slots of the pass and the samplers.
 #include "graph_state.hpp"
 
+#include <algorithm>
+
 namespace pelage::passes {
 namespace {
 
@@ -11,7 +13,7 @@ using rhi::TextureViewDimension;
 
 class Binder {
 public:
-    Binder(Graph::State& state, std::size_t index) : state_(state), pass_(state.plan.passes[index]) {}
+    Binder(GraphState& state, std::size_t index) : state_(state), pass_(state.plan.passes[index]) {}
 
     Result<rhi::BindGroupEntry> entry(const BindGroupLayoutEntry& wanted) const {
         rhi::BindGroupEntry made{.binding = wanted.binding};
@@ -58,9 +60,10 @@ private:
 
     // An optional slot that nothing feeds still needs something to bind.
     rhi::Texture standIn(const BindGroupLayoutEntry& wanted) const {
-        const char* name = wanted.viewDimension == TextureViewDimension::Cube ? "const.blackCube"
-                           : wanted.type == BindingType::DepthTexture         ? "const.depthFar"
-                                                                              : "const.black";
+        const char* name = wanted.viewDimension == TextureViewDimension::Cube  ? "const.blackCube"
+                           : wanted.viewDimension == TextureViewDimension::E3D ? "const.transparent3D"
+                           : wanted.type == BindingType::DepthTexture          ? "const.depthFar"
+                                                                               : "const.black";
         return state_.fixtures->constants.at(name);
     }
 
@@ -75,6 +78,11 @@ private:
                                     : "a multisampled texture, the image has 1 sample",
                         manySamples ? "read it as texture2DMS" : "read it as texture2D");
         }
+        const bool is3D = texture.descriptor().dimension == rhi::TextureDimension::E3D;
+        if (is3D != (wanted.viewDimension == TextureViewDimension::E3D)) {
+            return kind(wanted, slot, is3D ? "a 2D texture, the image is 3D" : "a 3D texture, the image is 2D",
+                        is3D ? "read it as texture3D" : "read it as texture2D");
+        }
         rhi::TextureViewDescriptor view{.dimension = wanted.viewDimension};
         if (wanted.viewDimension == TextureViewDimension::Cube) {
             if (!texture.descriptor().cubeCompatible) return kind(wanted, slot, "a cube, the image is none");
@@ -85,35 +93,44 @@ private:
         const bool storage =
             wanted.type == BindingType::StorageTexture || wanted.type == BindingType::ReadOnlyStorageTexture;
         if (storage) view.mipLevelCount = 1;
+        if (slot.level != ~0U && slot.resource != ~0U) {
+            view.baseMipLevel = slot.level;
+            view.mipLevelCount = 1;
+        }
         return texture.createView(view);
     }
 
-    Graph::State& state_;
+    GraphState& state_;
     const PlanPass& pass_;
 };
 
-// Which host objects a group of this pass would hold; a group made with others is made anew.
-std::vector<const void*> lentTo(const Graph::State& state, const PlanPass& pass) {
-    std::vector<const void*> lent;
-    for (const PlanSlot& slot : pass.slots) {
-        if (slot.bind.empty() || slot.resource == ~0U) continue;
-        if (state.plan.resources[slot.resource].kind != PlanResource::Kind::Import) continue;
-        const rhi::Texture& texture = state.textures[slot.resource];
-        lent.push_back(texture ? static_cast<const void*>(texture.get()) : state.buffers[slot.resource].get());
-    }
-    return lent;
+// A group that was made with other objects of the host than those lent now is another group.
+const void* lentTo(const GraphState& state, const PlanSlot& slot) {
+    const rhi::Texture& texture = state.textures[slot.resource];
+    return texture ? static_cast<const void*>(texture.get()) : state.buffers[slot.resource].get();
 }
+
+bool isSame(const CachedGroup& cached, const GraphState& state, std::size_t index) {
+    const PassState& own = state.passes[index];
+    for (std::size_t i = 0; i < own.lentSlots.size(); ++i) {
+        if (cached.lent[i] != lentTo(state, state.plan.passes[index].slots[own.lentSlots[i]])) return false;
+    }
+    return true;
+}
+
+// A host with several frames in flight lends other objects each time: the groups of some frames are kept.
+constexpr std::size_t keptGroups = 4;
 
 }  // namespace
 
-rhi::Texture textureOf(const Graph::State& state, const PlanPass& pass, std::string_view name) {
+rhi::Texture textureOf(const GraphState& state, const PlanPass& pass, std::string_view name) {
     for (const PlanSlot& slot : pass.slots) {
         if (slot.name == name && slot.resource != ~0U) return state.textures[slot.resource];
     }
     return {};
 }
 
-rhi::Buffer bufferOf(const Graph::State& state, const PlanPass& pass, std::string_view name) {
+rhi::Buffer bufferOf(const GraphState& state, const PlanPass& pass, std::string_view name) {
     for (const PlanSlot& slot : pass.slots) {
         if (slot.name == name && slot.resource != ~0U) return state.buffers[slot.resource];
     }
@@ -124,14 +141,17 @@ tl::unexpected<Diagnostics> shaderFault(Code code, std::string text, std::string
     return tl::unexpected<Diagnostics>(Diagnostic{.code = code, .text = std::move(text), .hint = std::move(hint)});
 }
 
-Result<rhi::BindGroup> bindGroupFor(Graph::State& state, std::size_t pass, const rhi::BindGroupLayout& layout) {
+Result<rhi::BindGroup> bindGroupFor(GraphState& state, std::size_t pass, const rhi::BindGroupLayout& layout) {
     if (!layout)
         return shaderFault("P074", "pass '" + state.plan.passes[pass].name + "': empty bind group layout");
-    std::vector<const void*> lent = lentTo(state, state.plan.passes[pass]);
-    auto& cache = state.passes[pass].groups;
-    const std::pair<const void*, std::uint32_t> key{layout.get(), turnOf(state, state.plan.passes[pass])};
-    const auto found = cache.find(key);
-    if (found != cache.end() && found->second.lent == lent) return found->second.group;
+    PassState& own = state.passes[pass];
+    const std::uint32_t turn = own.history == ~0U ? 0 : state.histories[own.history].turn;
+    std::size_t alike = 0;
+    for (const CachedGroup& cached : own.groups) {
+        if (cached.layout != layout || cached.turn != turn) continue;
+        if (isSame(cached, state, pass)) return cached.group;
+        ++alike;
+    }
 
     const Binder binder(state, pass);
     rhi::BindGroupDescriptor descriptor{.label = state.plan.passes[pass].name, .layout = layout};
@@ -142,7 +162,15 @@ Result<rhi::BindGroup> bindGroupFor(Graph::State& state, std::size_t pass, const
     }
     auto group = state.device.createBindGroup(descriptor);
     if (!group) return group;
-    cache[key] = {layout, std::move(lent), *group};
+    CachedGroup cached{.layout = layout, .turn = turn, .group = *group};
+    for (const std::uint32_t slot : own.lentSlots)
+        cached.lent.push_back(lentTo(state, state.plan.passes[pass].slots[slot]));
+    if (alike >= keptGroups) {  // the oldest goes
+        own.groups.erase(std::find_if(own.groups.begin(), own.groups.end(), [&](const CachedGroup& old) {
+            return old.layout == layout && old.turn == turn;
+        }));
+    }
+    own.groups.push_back(std::move(cached));
     return group;
 }
 

@@ -15,12 +15,16 @@ struct SamplerRow {
 
 Result<rhi::Texture> makeConstant(const rhi::Device& device, const std::string& name,
                                        std::array<std::uint8_t, 4> texel, rhi::TextureFormat format,
-                                       std::uint32_t layers) {
+                                       std::uint32_t layers, rhi::TextureDimension dimension) {
     auto usage = rhi::TextureUsage::TextureBinding | rhi::TextureUsage::CopyDst;
     // The layout in which depth is sampled is one of attachments.
     if (rhi::isDepth(format)) usage = usage | rhi::TextureUsage::RenderAttachment;
-    auto texture = device.createTexture(
-        {.label = name, .size = {1, 1, layers}, .format = format, .usage = usage, .cubeCompatible = layers == 6});
+    auto texture = device.createTexture({.label = name,
+                                         .size = {1, 1, layers},
+                                         .dimension = dimension,
+                                         .format = format,
+                                         .usage = usage,
+                                         .cubeCompatible = layers == 6});
     if (!texture) return texture;
     std::vector<std::uint8_t> bytes;
     for (std::uint32_t layer = 0; layer < layers; ++layer) bytes.insert(bytes.end(), texel.begin(), texel.end());
@@ -71,13 +75,16 @@ Result<std::shared_ptr<const Fixtures>> makeFixtures(const rhi::Device& device, 
         std::array<std::uint8_t, 4> texel;
         rhi::TextureFormat format;
         std::uint32_t layers;
+        rhi::TextureDimension dimension = rhi::TextureDimension::E2D;
     };
-    for (const Row& row : {Row{"const.white", {255, 255, 255, 255}, rhi::TextureFormat::RGBA8Unorm, 1},
-                           Row{"const.black", {0, 0, 0, 255}, rhi::TextureFormat::RGBA8Unorm, 1},
-                           Row{"const.transparent", {0, 0, 0, 0}, rhi::TextureFormat::RGBA8Unorm, 1},
-                           Row{"const.blackCube", {0, 0, 0, 255}, rhi::TextureFormat::RGBA8Unorm, 6},
-                           Row{"const.depthFar", farBytes, rhi::TextureFormat::Depth32Float, 1}}) {
-        auto texture = makeConstant(device, row.name, row.texel, row.format, row.layers);
+    for (const Row& row :
+         {Row{"const.white", {255, 255, 255, 255}, rhi::TextureFormat::RGBA8Unorm, 1},
+          Row{"const.black", {0, 0, 0, 255}, rhi::TextureFormat::RGBA8Unorm, 1},
+          Row{"const.transparent", {0, 0, 0, 0}, rhi::TextureFormat::RGBA8Unorm, 1},
+          Row{"const.transparent3D", {0, 0, 0, 0}, rhi::TextureFormat::RGBA8Unorm, 1, rhi::TextureDimension::E3D},
+          Row{"const.blackCube", {0, 0, 0, 255}, rhi::TextureFormat::RGBA8Unorm, 6},
+          Row{"const.depthFar", farBytes, rhi::TextureFormat::Depth32Float, 1}}) {
+        auto texture = makeConstant(device, row.name, row.texel, row.format, row.layers, row.dimension);
         if (!texture) return tl::unexpected(std::move(texture.error()));
         fixtures->constants[row.name] = std::move(*texture);
     }

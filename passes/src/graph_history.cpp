@@ -8,18 +8,18 @@ namespace {
 
 bool sameShape(const PlanResource& a, const PlanResource& b) {
     return a.name == b.name && a.isBuffer == b.isBuffer && a.format == b.format && a.extent == b.extent &&
-           a.samples == b.samples && a.layers == b.layers && a.usage == b.usage && a.bufferUsage == b.bufferUsage &&
-           a.bytes == b.bytes && (a.partner == ~0U) == (b.partner == ~0U);
+           a.samples == b.samples && a.layers == b.layers && a.mipLevels == b.mipLevels && a.usage == b.usage &&
+           a.bufferUsage == b.bufferUsage && a.bytes == b.bytes && (a.partner == ~0U) == (b.partner == ~0U);
 }
 
-const History* sameIn(const Graph::State& state, const PlanResource& resource) {
+const History* sameIn(const GraphState& state, const PlanResource& resource) {
     for (const History& each : state.histories) {
         if (sameShape(state.plan.resources[each.last], resource)) return &each;
     }
     return nullptr;
 }
 
-Result<void> makeOne(Graph::State& state, History& history, std::size_t turn) {
+Result<void> makeOne(GraphState& state, History& history, std::size_t turn) {
     const PlanResource& resource = state.plan.resources[history.last];
     const std::string label = resource.name + (turn == 0 ? " (even frames)" : " (odd frames)");
     if (resource.isBuffer) {
@@ -30,6 +30,7 @@ Result<void> makeOne(Graph::State& state, History& history, std::size_t turn) {
     }
     auto made = state.device.createTexture({.label = label,
                                             .size = resource.extent,
+                                            .mipLevelCount = resource.mipLevels,
                                             .sampleCount = resource.samples,
                                             .format = resource.format,
                                             .usage = resource.usage});
@@ -38,16 +39,17 @@ Result<void> makeOne(Graph::State& state, History& history, std::size_t turn) {
     return {};
 }
 
-Result<void> clear(const Graph::State& state, const History& history, rhi::CommandEncoder& encoder) {
+Result<void> clear(const GraphState& state, const History& history, rhi::CommandEncoder& encoder) {
     const PlanResource& resource = state.plan.resources[history.last];
     if (resource.isBuffer) {
         encoder.clearBuffer(state.buffers[history.last]);
         return {};
     }
-    for (std::uint32_t layer = 0; layer < resource.layers; ++layer) {
+    for (std::uint32_t i = 0; i < resource.layers * resource.mipLevels; ++i) {
         auto view = state.textures[history.last].createView({.dimension = rhi::TextureViewDimension::E2D,
+                                                             .baseMipLevel = i / resource.layers,
                                                              .mipLevelCount = 1,
-                                                             .baseArrayLayer = layer,
+                                                             .baseArrayLayer = i % resource.layers,
                                                              .arrayLayerCount = 1});
         if (!view) return tl::unexpected(std::move(view.error()));
         rhi::RenderPassDescriptor descriptor{.label = "begin " + resource.name};
@@ -64,7 +66,7 @@ Result<void> clear(const Graph::State& state, const History& history, rhi::Comma
 
 }  // namespace
 
-Result<void> makeHistories(Graph::State& state, const Graph::State* before) {
+Result<void> makeHistories(GraphState& state, const GraphState* before) {
     for (std::uint32_t i = 0; i < state.plan.resources.size(); ++i) {
         const PlanResource& resource = state.plan.resources[i];
         if (resource.kind != PlanResource::Kind::History) continue;
@@ -85,7 +87,7 @@ Result<void> makeHistories(Graph::State& state, const Graph::State* before) {
     return {};
 }
 
-void takeTurns(Graph::State& state) {
+void takeTurns(GraphState& state) {
     for (const History& history : state.histories) {
         const std::size_t now = history.current == ~0U ? 1 : history.turn;
         state.textures[history.last] = history.textures[1 - now];
@@ -96,7 +98,7 @@ void takeTurns(Graph::State& state) {
     }
 }
 
-Result<void> beginHistories(Graph::State& state, rhi::CommandEncoder& encoder) {
+Result<void> beginHistories(GraphState& state, rhi::CommandEncoder& encoder) {
     takeTurns(state);
     for (const History& history : state.histories) {
         if (history.begun) continue;
@@ -105,21 +107,11 @@ Result<void> beginHistories(Graph::State& state, rhi::CommandEncoder& encoder) {
     return {};
 }
 
-void endHistories(Graph::State& state) {
+void endHistories(GraphState& state) {
     for (History& history : state.histories) {
         history.begun = true;
         history.turn = 1 - history.turn;
     }
-}
-
-std::uint32_t turnOf(const Graph::State& state, const PlanPass& pass) {
-    for (const PlanSlot& slot : pass.slots) {
-        if (slot.resource == ~0U) continue;
-        for (const History& history : state.histories) {
-            if (history.last == slot.resource || history.current == slot.resource) return history.turn;
-        }
-    }
-    return 0;
 }
 
 }  // namespace pelage::passes

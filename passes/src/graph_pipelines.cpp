@@ -3,15 +3,14 @@
 // that does not fit its pass is refused before anything is drawn.
 #include "check.hpp"
 #include "graph_state.hpp"
+#include "pass_kinds.hpp"
 
 namespace pelage::passes {
 namespace {
 
-constexpr std::uint32_t slotSet = 1;
-
 class PipelineMaker {
 public:
-    PipelineMaker(Graph::State& state, const ShaderSource& shaders, const PassClassRegistry& classes,
+    PipelineMaker(GraphState& state, const ShaderSource& shaders, const PassClassRegistry& classes,
                   const PassTree::Description& tree, Reporter& reporter)
         : state_(state), shaders_(shaders), classes_(classes), tree_(tree), reporter_(reporter) {}
 
@@ -22,38 +21,38 @@ public:
                 recorder(pass, state_.passes[i]);
                 continue;
             }
+            if (pass.kind == PassKind::Copy) state_.passes[i].recorder = copyPass();
             if (pass.kind != PassKind::Fullscreen && pass.kind != PassKind::Compute) continue;
             const PassDeclaration* says = tree_.pass(pass.name);
             place_ = says ? says->shader.place : Place{};
             says_ = says;
-            if (pass.kind == PassKind::Fullscreen) {
-                fullscreen(pass, state_.passes[i]);
-            } else {
-                compute(pass, state_.passes[i]);
-            }
-            if (state_.passes[i].layout) checkGroup(i);
+            const rhi::BindGroupLayout layout = pass.kind == PassKind::Fullscreen ? fullscreen(pass, state_.passes[i])
+                                                                                  : compute(pass, state_.passes[i]);
+            if (layout) checkGroup(i, layout);
         }
     }
 
 private:
     void recorder(const PlanPass& pass, PassState& own) {
         const PassDeclaration* says = tree_.pass(pass.name);
-        const Place place = says ? says->classPlace : Place{};
+        const bool draws = says && says->passClass.empty();  // by its list
+        const Place place = !says ? Place{} : draws ? says->drawListPlace : says->classPlace;
         const PassClass* found = classes_.find(pass.passClass);
         if (!found) {
-            // The host described a class to the linker that the graph's registry lacks.
-            reporter_.error(place, "P053", "pass '" + pass.name + "': unknown class '" + pass.passClass + "'",
-                            "register it in Graph::Descriptor::classes");
+            // The host described a class to the linker that the graph's registry lacks, or nobody draws lists.
+            reporter_.error(
+                place, "P053",
+                "pass '" + pass.name + "': " +
+                    (draws ? "nobody draws the list '" + pass.drawList + "'; there is no class '" : "unknown class '") +
+                    pass.passClass + "'",
+                "register it in Graph::Descriptor::classes");
             return;
         }
-        auto made = found->create(PassSetup{.device = state_.device,
-                                            .plan = state_.plan,
-                                            .pass = pass,
-                                            .targets = own.targets,
-                                            .parameters = PassParameters(pass.parameters),
-                                            .shaders = shaders_});
+        PassSetup::Asked asked;
+        auto made = found->create(setup(pass, asked));
         if (made && *made) {
             own.recorder = std::move(*made);
+            unknownConstants(pass, asked, "class '" + pass.passClass + "'");
             return;
         }
         if (!made) return reporter_.forward(place, made.error(), about(pass) + ", class '" + pass.passClass + "'");
@@ -76,41 +75,42 @@ private:
     }
 
     rhi::ProgrammableStage stage(const rhi::ShaderModule& shader, const PlanPass& pass) {
-        rhi::ProgrammableStage made{.module = shader};
-        std::vector<std::string> known;
-        for (const rhi::SpecConstant& constant : shader.reflection().specConstants) {
-            known.push_back(constant.name);
-            if (const std::optional<double> value = constantValue(constant.name, pass))
-                made.constants.push_back({constant.name, *value});
-        }
-        for (const auto& [name, value] : pass.constants) {
-            if (has(known, name)) continue;
-            Place place = place_;
-            for (const ConstantDeclaration& each : says_ ? says_->constants : std::vector<ConstantDeclaration>{}) {
-                if (each.name == name) place = each.place;
-            }
-            reporter_.error(place, "P077", "'" + pass.shader + "' has no specialization constant '" + name + "'",
-                            didYouMean(name, known));
-        }
+        PassSetup::Asked asked;
+        rhi::ProgrammableStage made = setup(pass, asked).stage(shader);
+        unknownConstants(pass, asked, "'" + pass.shader + "'");
         return made;
     }
 
-    // What the pass says; else what the linked image says of itself: u_source_samples, u_source_present.
-    std::optional<double> constantValue(const std::string& name, const PlanPass& pass) const {
-        if (const auto found = pass.constants.find(name); found != pass.constants.end()) return found->second;
-        for (const PlanSlot& slot : pass.slots) {
-            if (slot.bind.empty()) continue;
-            const bool connected = slot.resource != ~0U;
-            if (name == slot.bind + "_present") return connected ? 1 : 0;
-            if (name == slot.bind + "_samples") return connected ? state_.plan.resources[slot.resource].samples : 1;
-        }
-        return std::nullopt;
+    PassSetup setup(const PlanPass& pass, PassSetup::Asked& asked) const {
+        return {.device = state_.device,
+                .plan = state_.plan,
+                .pass = pass,
+                .targets = state_.passes[static_cast<std::size_t>(&pass - state_.plan.passes.data())].targets,
+                .parameters = PassParameters(pass.parameters),
+                .shaders = shaders_,
+                .asked = asked};
     }
 
-    void fullscreen(const PlanPass& pass, PassState& made) {
+    // Of the file: those that no stage of the pass has.
+    void unknownConstants(const PlanPass& pass, const PassSetup::Asked& asked, const std::string& who) {
+        if (asked.all) return;
+        const PassDeclaration* says = tree_.pass(pass.name);
+        for (const auto& [name, value] : pass.constants) {
+            if (has(asked.names, name)) continue;
+            Place place = place_;
+            for (const ConstantDeclaration& each : says ? says->constants : std::vector<ConstantDeclaration>{}) {
+                if (each.name == name) place = each.place;
+            }
+            reporter_.error(place, "P077", who + " has no specialization constant '" + name + "'",
+                            didYouMean(name, asked.names));
+        }
+    }
+
+    // Each gives the layout of the slots' set, empty when the shader uses none or the pass has a fault.
+    rhi::BindGroupLayout fullscreen(const PlanPass& pass, PassState& made) {
         const auto vertex = module("fullscreen.vert", pass);
         const auto fragment = module(pass.shader, pass);
-        if (!vertex || !fragment) return;
+        if (!vertex || !fragment) return {};
         rhi::RenderPipelineDescriptor descriptor{.label = pass.name, .vertex = {.module = *vertex}};
         descriptor.fragment = stage(*fragment, pass);
         descriptor.multisample.count = made.targets.samples;
@@ -121,7 +121,7 @@ private:
                                 std::to_string(output.location) + "; '" + pass.name + "' has " +
                                 std::to_string(made.targets.colors.size()) + " color target(s)",
                             "give the pass another color slot, or remove the output");
-            return;
+            return {};
         }
         for (const PlanSlot& slot : pass.slots) {
             if (slot.resource == ~0U) continue;
@@ -144,28 +144,27 @@ private:
         }
         auto pipeline = state_.device.createRenderPipeline(descriptor);
         if (!pipeline) return failed(pass, pipeline.error());
-        made.pipeline = std::move(*pipeline);
-        made.layout = made.pipeline.bindGroupLayout(slotSet);
+        made.recorder = fullscreenPass(*pipeline);
         // Both stages: the vertex stage has none, but a changed one may.
         onlySlotSet(*fragment, pass);
-        slotsAreUsed(made.layout, pass);
+        return slotsAreUsed(pipeline->bindGroupLayout(slotSet), pass);
     }
 
-    void compute(const PlanPass& pass, PassState& made) {
+    rhi::BindGroupLayout compute(const PlanPass& pass, PassState& made) {
         const auto shader = module(pass.shader, pass);
-        if (!shader) return;
+        if (!shader) return {};
         auto pipeline = state_.device.createComputePipeline({.label = pass.name, .compute = stage(*shader, pass)});
         if (!pipeline) return failed(pass, pipeline.error());
-        made.compute = std::move(*pipeline);
-        made.layout = made.compute.bindGroupLayout(slotSet);
+        made.recorder = computePass(*pipeline);
         onlySlotSet(*shader, pass);
-        slotsAreUsed(made.layout, pass);
+        return slotsAreUsed(pipeline->bindGroupLayout(slotSet), pass);
     }
 
     static std::string about(const PlanPass& pass) { return "pass '" + pass.name + "'"; }
 
-    void failed(const PlanPass& pass, const Diagnostics& faults) {
+    rhi::BindGroupLayout failed(const PlanPass& pass, const Diagnostics& faults) {
         reporter_.forward(place_, faults, "the pipeline of " + about(pass));
+        return {};
     }
 
     void onlySlotSet(const rhi::ShaderModule& shader, const PlanPass& pass) {
@@ -178,7 +177,7 @@ private:
         }
     }
 
-    void slotsAreUsed(const rhi::BindGroupLayout& layout, const PlanPass& pass) {
+    rhi::BindGroupLayout slotsAreUsed(const rhi::BindGroupLayout& layout, const PlanPass& pass) {
         std::vector<std::string> known;
         if (layout) {
             for (const rhi::BindGroupLayoutEntry& entry : layout.entries()) known.push_back(entry.name);
@@ -192,18 +191,19 @@ private:
                                 "' has no such resource",
                             didYouMean(slot.bind, known));
         }
+        return layout;
     }
 
     // Made once now to hear what does not fit; groups with images of the host wait for the frame.
-    void checkGroup(std::size_t index) {
+    void checkGroup(std::size_t index, const rhi::BindGroupLayout& layout) {
         for (const PlanSlot& slot : state_.plan.passes[index].slots) {
             if (slot.resource != ~0U && state_.plan.resources[slot.resource].kind == PlanResource::Kind::Import) return;
         }
-        const auto group = bindGroupFor(state_, index, state_.passes[index].layout);
+        const auto group = bindGroupFor(state_, index, layout);
         if (!group) reporter_.forward(place_, group.error(), about(state_.plan.passes[index]));
     }
 
-    Graph::State& state_;
+    GraphState& state_;
     const ShaderSource& shaders_;
     const PassClassRegistry& classes_;
     const PassTree::Description& tree_;
@@ -214,7 +214,7 @@ private:
 
 }  // namespace
 
-void makePipelines(Graph::State& state, const ShaderSource& shaders, const PassClassRegistry& classes,
+void makePipelines(GraphState& state, const ShaderSource& shaders, const PassClassRegistry& classes,
                    const PassTree::Description& tree, Reporter& reporter) {
     PipelineMaker(state, shaders, classes, tree, reporter).run();
 }

@@ -20,16 +20,17 @@ rhi::Color loud(rhi::TextureFormat format) {
 
 }  // namespace
 
-Result<void> poison(const Graph::State& state, std::uint32_t pass, rhi::CommandEncoder& encoder) {
+Result<void> poison(const GraphState& state, std::uint32_t pass, rhi::CommandEncoder& encoder) {
     for (std::size_t i = 0; i < state.plan.resources.size(); ++i) {
         const PlanResource& image = state.plan.resources[i];
         const bool begins = image.heapOffset != notPlaced && image.firstPass == pass;
         // Only what can be a target can be painted without a shader.
         if (!begins || !contains(image.usage, rhi::TextureUsage::RenderAttachment)) continue;
-        for (std::uint32_t layer = 0; layer < image.layers; ++layer) {
+        for (std::uint32_t target = 0; target < image.layers * image.mipLevels; ++target) {
             auto view = state.textures[i].createView({.dimension = rhi::TextureViewDimension::E2D,
+                                                      .baseMipLevel = target / image.layers,
                                                       .mipLevelCount = 1,
-                                                      .baseArrayLayer = layer,
+                                                      .baseArrayLayer = target % image.layers,
                                                       .arrayLayerCount = 1});
             if (!view) return tl::unexpected(std::move(view.error()));
             rhi::RenderPassDescriptor descriptor{.label = "poison " + image.name};

@@ -24,7 +24,7 @@ bool hasStatistics(const PlanPass& pass) {
 
 }  // namespace
 
-Result<void> makeQueries(Graph::State& state) {
+Result<void> makeQueries(GraphState& state) {
     if (state.queryCount == 0) return {};
     const auto make = [&](rhi::QueryType type, std::uint32_t count, std::uint64_t bytes, rhi::QuerySet& set,
                           rhi::Buffer& results) -> Result<void> {
@@ -51,7 +51,7 @@ Result<void> makeQueries(Graph::State& state) {
     return {};
 }
 
-void resolveQueries(const Graph::State& state, rhi::CommandEncoder& encoder) {
+void resolveQueries(const GraphState& state, rhi::CommandEncoder& encoder) {
     if (state.timestamps) {
         encoder.resolveQuerySet(state.timestamps, 0, 2 * state.queryCount, state.timestampResults, 0);
     }

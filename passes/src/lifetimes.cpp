@@ -11,7 +11,12 @@ std::uint64_t bytesOf(const PlanResource& image) {
     std::uint64_t texel = rhi::bytesPerTexel(image.format);
     if (image.format == rhi::TextureFormat::Depth24PlusStencil8) texel = 4;
     if (image.format == rhi::TextureFormat::Depth32FloatStencil8) texel = 8;
-    return texel * image.extent.width * image.extent.height * image.layers * image.samples;
+    std::uint64_t texels = 0;
+    for (std::uint32_t level = 0; level < image.mipLevels; ++level) {
+        const rhi::Extent3D extent = levelExtent(image.extent, image.is3D, level);
+        texels += std::uint64_t{extent.width} * extent.height * (image.is3D ? extent.depthOrArrayLayers : image.layers);
+    }
+    return texel * texels * image.samples;
 }
 
 class Finisher {
@@ -26,6 +31,7 @@ public:
             image.firstPass = none;
             if (!image.isBuffer) image.bytes = bytesOf(image);
         }
+        written_.assign(plan_.resources.size(), 0);
         plan_.passes.reserve(linker_.order.size());
         for (const std::uint32_t index : linker_.order) pass(linker_.passes[index]);
         exported_.assign(plan_.resources.size(), false);
@@ -47,8 +53,8 @@ private:
         const PassDeclaration& says = *linked.says;
         PlanPass made{.name = says.name, .drawList = says.drawList, .view = says.view, .kind = linked.kind};
         made.passClass = says.passClass;
+        if (linked.kind == PassKind::Raster && says.passClass.empty()) made.passClass = drawListClass;
         made.forEachLayer = says.forEachLayer;
-        made.sort = says.sort;
         const bool first = !says.shader.when || says.shader.when->evaluate(linker_.conditions);
         made.shader = first ? says.shader.file : says.shader.otherwise;
         if (linked.info) made.parameters = linker_.parametersOf(linked);
@@ -61,6 +67,7 @@ private:
             ++linker_.visits;
             if (!says.dispatchIndirect.empty() && linkedSlot.says->name == says.dispatchIndirect)
                 made.indirect = static_cast<std::uint32_t>(made.slots.size());
+            made.indirectOffset = says.indirectOffset;
             made.slots.push_back(slot(linkedSlot));
             const PlanSlot& own = made.slots.back();
             if (own.resource == none) continue;
@@ -69,12 +76,39 @@ private:
             image.lastPass = passIndex;
             if (own.makes != none) image.versions = std::max(image.versions, own.makes + 1);
             if (linkedSlot.says->name == says.dispatchLike) {
-                const std::uint32_t sides[3] = {image.extent.width, image.extent.height, image.layers};
+                const rhi::Extent3D extent = levelExtent(image.extent, image.is3D, own.level == none ? 0 : own.level);
+                const std::uint32_t sides[3] = {extent.width, extent.height,
+                                                image.is3D ? extent.depthOrArrayLayers : image.layers};
                 for (std::size_t i = 0; i < 3; ++i)
                     made.dispatch[i] = (sides[i] + says.threads[i] - 1) / says.threads[i];
             }
         }
+        // What a pass writes is there for those after it.
+        for (const PlanSlot& slot : made.slots) {
+            if (slot.resource != none && slot.access != SlotAccess::Read)
+                written_[slot.resource] |= levelMask(plan_.resources[slot.resource], slot.level);
+        }
         plan_.passes.push_back(std::move(made));
+    }
+
+    static std::uint32_t levelMask(const PlanResource& image, std::uint32_t level) {
+        return level == none ? (1U << image.mipLevels) - 1 : 1U << level;
+    }
+
+    // Only images of ours with several levels can be there in part.
+    void wholeEnough(const LinkedSlot& linked, const PlanSlot& made) const {
+        const PlanResource& image = plan_.resources[made.resource];
+        if (image.mipLevels == 1 || image.kind != PlanResource::Kind::Transient) return;
+        const std::uint32_t lacking = levelMask(image, made.level) & ~written_[made.resource];
+        if (lacking == 0) return;
+        std::uint32_t first = 0;
+        while ((lacking >> first & 1U) == 0) ++first;
+        const SlotDeclaration& says = *linked.says;
+        linker_.reporter.error(linked.source ? linked.source->place : says.place, "P061",
+                               "slot '" + says.name + "' reads mip level " + std::to_string(first) + " of '" +
+                                   image.name + "', which no pass before it writes",
+                               made.level == none ? "name the \"level\" that it reads, or write the others"
+                                                  : "connect it to the pass that writes that level");
     }
 
     PlanSlot slot(const LinkedSlot& linked) const {
@@ -90,11 +124,16 @@ private:
         if (version.producer != none) made.producer = linker_.passes[version.producer].place;
         if (linked.out != none) made.makes = linker_.versions[linked.out].number;
         // An image of ours that nobody has written begins here; a lent one has what the host put into it.
-        const bool begins = version.number == 0 && plan_.resources[made.resource].kind == PlanResource::Kind::Transient;
+        const PlanResource& image = plan_.resources[made.resource];
+        if (image.mipLevels > 1) made.level = levelOf(says);
+        const bool ours = image.kind == PlanResource::Kind::Transient;
+        const bool fresh = image.mipLevels > 1 && (levelMask(image, made.level) & written_[made.resource]) == 0;
+        const bool begins = ours && (version.number == 0 || fresh);
         if (says.access == SlotAccess::Write || (says.access == SlotAccess::ReadWrite && begins)) {
             made.load = says.hasClear ? rhi::LoadOp::Clear : rhi::LoadOp::DontCare;
         } else {
             made.reads = version.number;
+            wholeEnough(linked, made);
         }
         return made;
     }
@@ -115,6 +154,7 @@ private:
     Linker& linker_;
     Plan& plan_;
     std::vector<bool> exported_ = {};
+    std::vector<std::uint32_t> written_ = {};  // by resource: the mip levels, one bit each, that a pass has written
 };
 
 }  // namespace

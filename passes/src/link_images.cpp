@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Format, size, samples, layers and usage of every image that a live pass touches, and whether they fit together.
 #include "link.hpp"
+#include "plan_text.hpp"
 
 #include <cmath>
 
@@ -126,6 +127,7 @@ private:
         image.extent = {1, 1, 1};
         const std::string name = image.name.substr(image.name.find('.') + 1);
         image.cube = name == "blackCube";
+        image.is3D = name == "transparent3D";
         image.layers = image.cube ? 6 : 1;
         image.format = isDepthConstant(name) ? rhi::TextureFormat::Depth32Float : rhi::TextureFormat::RGBA8Unorm;
     }
@@ -134,7 +136,7 @@ private:
         const ImportDeclaration& says = *resource.import;
         const auto found = linker_.host.imports.find(says.name);
         if (found == linker_.host.imports.end() || resource.plan.isBuffer) return;
-        const ImportDescription& lent = found->second;
+        const LentImport& lent = found->second;
         PlanResource& image = resource.plan;
         image.format = lent.format;
         image.extent = lent.extent;
@@ -164,24 +166,62 @@ private:
         image.format = says.formats.front();
         image.samples = static_cast<std::uint32_t>(linker_.number(says.samples));
         image.layers = says.layersView.empty() ? says.layers : std::max(1U, linker_.viewCounts[says.viewIndex]);
-        const auto [width, height] = size(says.size);
-        if (width < 1 || height < 1 || width > linker_.host.maxSide || height > linker_.host.maxSide) {
+        const Sides sides = size(says.size);
+        image.is3D = sides.depth > 0;
+        const std::uint32_t most = image.is3D ? linker_.host.maxSide3D : linker_.host.maxSide;
+        if (sides.width < 1 || sides.height < 1 || std::max({sides.width, sides.height, sides.depth}) > most) {
             if (!sizeFailed_) {
-                linker_.reporter.error(says.size.place, "D002",
-                                       "'" + image.name + "' would be " + std::to_string(width) + " x " +
-                                           std::to_string(height) + "; a side is 1.." +
-                                           std::to_string(linker_.host.maxSide),
-                                       settingHint(says.size.width));
+                linker_.reporter.error(
+                    says.size.place, "D002",
+                    "'" + image.name + "' would be " + sidesText(sides) + "; a side is 1.." + std::to_string(most),
+                    settingHint(says.size.width));
             }
             sizeFailed_ = false;
+            image.mipLevels = unknownLevels;
             return;
         }
-        image.extent = {static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), image.layers};
+        image.extent = {static_cast<std::uint32_t>(sides.width), static_cast<std::uint32_t>(sides.height),
+                        image.is3D ? static_cast<std::uint32_t>(sides.depth) : image.layers};
+        if (image.is3D && image.layers > 1)
+            linker_.reporter.error(says.layersPlace, "P062",
+                                   "'" + image.name + "' is 3D, as what its size follows: it has no layers",
+                                   "remove it");
+        levels(image, says);
         if (image.layers > linker_.host.maxLayers) {
             linker_.reporter.error(says.layersPlace, "D002",
                                    "'" + image.name + "' would have " + std::to_string(image.layers) +
                                        " layers; at most " + std::to_string(linker_.host.maxLayers));
         }
+    }
+
+    // Of an image that was refused: any level a slot names, so that one fault is not told twice.
+    static constexpr std::uint32_t unknownLevels = 16;
+
+    void levels(PlanResource& image, const AttachmentDeclaration& says) {
+        const std::uint32_t most = mipLevelsOf(image);
+        const double wanted = says.allMipLevels ? most : linker_.number(says.mipLevels);
+        if (wanted >= 1 && wanted <= most) {
+            image.mipLevels = static_cast<std::uint32_t>(wanted);
+        } else {
+            linker_.reporter.error(says.mipLevels.place, "P061",
+                                   "'" + image.name + "' of " + shapeText(image) + " cannot have " +
+                                       std::to_string(static_cast<long long>(wanted)) + " mip levels: it has 1.." +
+                                       std::to_string(most),
+                                   R"(write "full" for all of them)");
+            image.mipLevels = unknownLevels;
+            return;
+        }
+        if (image.mipLevels > 1 && image.samples > 1) {
+            linker_.reporter.error(says.mipLevels.place, "P061",
+                                   "'" + image.name + "' would have several mip levels and " +
+                                       std::to_string(image.samples) + " samples; an image has several of one only");
+        }
+    }
+    static std::uint32_t mipLevelsOf(const PlanResource& image) {
+        std::uint32_t side = std::max(image.extent.width, image.extent.height), levels = 1;
+        if (image.is3D) side = std::max(side, image.extent.depthOrArrayLayers);
+        for (; side > 1; side /= 2) ++levels;
+        return levels;
     }
 
     static std::string settingHint(const NumberOrSetting& value) {
@@ -192,8 +232,9 @@ private:
         const BytesDeclaration& says = resource.attachment->bytes;
         double bytes = linker_.number(says.count) * says.times;
         if (says.perPixel) {
-            const auto [width, height] = size(says.pixels);
-            bytes *= static_cast<double>(width) * static_cast<double>(height);
+            const Sides sides = size(says.pixels);
+            bytes *= static_cast<double>(sides.width) * static_cast<double>(sides.height) *
+                     static_cast<double>(std::max<std::uint64_t>(1, sides.depth));
         }
         bytes = std::ceil(bytes / 16) * 16;
         const std::uint64_t most = std::min<std::uint64_t>(1ULL << 32, linker_.host.maxBytes);
@@ -211,19 +252,35 @@ private:
         resource.plan.bytes = static_cast<std::uint64_t>(bytes);
     }
 
-    using Sides = std::pair<std::uint64_t, std::uint64_t>;
-    static Sides scaled(std::uint32_t width, std::uint32_t height, double scale) {
-        const auto up = [scale](std::uint32_t side) { return static_cast<std::uint64_t>(std::ceil(side * scale)); };
-        return {up(width), up(height)};
+    struct Sides {
+        std::uint64_t width = 0, height = 0, depth = 0;  // depth 0: not 3D
+    };
+    static std::string sidesText(const Sides& sides) {
+        return std::to_string(sides.width) + " x " + std::to_string(sides.height) +
+               (sides.depth > 0 ? " x " + std::to_string(sides.depth) : "");
+    }
+    static Sides scaled(const Sides& sides, double scale) {
+        const auto up = [scale](std::uint64_t side) {
+            return static_cast<std::uint64_t>(std::ceil(static_cast<double>(side) * scale));
+        };
+        return {up(sides.width), up(sides.height), up(sides.depth)};
     }
 
-    // Circles were refused by check.cpp, so this ends.
     Sides size(const SizeDeclaration& says) {
+        Sides sides = flatSize(says);
+        if (says.depth) sides.depth = whole(linker_.number(*says.depth));
+        // No texel in depth is a size that fails, not an image that is not 3D.
+        if (says.depth && sides.depth == 0) sides.width = 0;
+        return sides;
+    }
+    static std::uint64_t whole(double number) { return static_cast<std::uint64_t>(std::max(0.0, number)); }
+
+    // Circles were refused by check.cpp, so this ends.
+    Sides flatSize(const SizeDeclaration& says) {
         using Kind = SizeDeclaration::Kind;
-        const auto whole = [](double number) { return static_cast<std::uint64_t>(std::max(0.0, number)); };
         switch (says.kind) {
             case Kind::Frame:
-                return scaled(linker_.host.extent.width, linker_.host.extent.height, says.scale);
+                return scaled({linker_.host.extent.width, linker_.host.extent.height}, says.scale);
             case Kind::Square:
                 return {whole(linker_.number(says.width)), whole(linker_.number(says.width))};
             case Kind::Fixed:
@@ -237,13 +294,13 @@ private:
                 linker_.reporter.error(says.place, "P031",
                                        "a size follows '" + says.like + "', which the host does not lend");
                 sizeFailed_ = true;
-                return {0, 0};
+                return {};
             }
-            return scaled(lent->second.extent.width, lent->second.extent.height, says.scale);
+            return scaled({lent->second.extent.width, lent->second.extent.height}, says.scale);
         }
-        const auto [width, height] = size(linker_.tree.attachments[says.likeIndex].size);
-        if (std::max(width, height) > linker_.host.maxSide) return {width, height};
-        return scaled(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), says.scale);
+        const Sides sides = size(linker_.tree.attachments[says.likeIndex].size);
+        if (std::max({sides.width, sides.height, sides.depth}) > linker_.host.maxSide) return sides;
+        return scaled(sides, says.scale);
     }
 
     void chooseFormat(LinkedResource& resource) {
@@ -280,6 +337,13 @@ private:
     const LinkedResource& resourceOf(const LinkedSlot& slot) const {
         return linker_.resources[linker_.versions[slot.in].resource];
     }
+    rhi::Extent3D extentOf(const LinkedSlot& slot) const {
+        const PlanResource& image = resourceOf(slot).plan;
+        return levelExtent(image.extent, image.is3D, slot.says->level == none ? 0 : slot.says->level);
+    }
+    std::uint32_t levelsOf(const LinkedSlot& slot) const {
+        return slot.says->level == none ? resourceOf(slot).plan.mipLevels : 1;
+    }
     Place placeOf(const LinkedSlot& slot) const { return slot.source ? slot.source->place : slot.says->place; }
 
     void slotFits(const LinkedPass& pass, const LinkedSlot& slot, std::uint32_t views) {
@@ -293,7 +357,23 @@ private:
                                        title() + " is " + std::string(word(use)));
             return;
         }
+        if (image.isBuffer && slot.says->level != none)
+            linker_.reporter.error(slot.says->levelPlace, "P061",
+                                   title() + " is a mip level, but '" + image.name + "' is a buffer", "remove it");
         if (image.isBuffer) return;
+        if (slot.says->level != none && slot.says->level >= image.mipLevels) {
+            linker_.reporter.error(slot.says->levelPlace, "P061",
+                                   title() + " is mip level " + std::to_string(slot.says->level) + ", '" + image.name +
+                                       "' of " + shapeText(image) + " has " + std::to_string(image.mipLevels),
+                                   "levels count from 0; give the attachment more \"mipLevels\"");
+            return;
+        }
+        if (image.is3D && isTarget(*slot.says)) {
+            linker_.reporter.error(placeOf(slot), "P062",
+                                   title() + " is a " + std::string(word(use)) + " slot; nothing is drawn into '" +
+                                       image.name + "', which is 3D",
+                                   "write it as \"storage\" in a compute pass");
+        }
         const bool depth = rhi::isDepth(image.format);
         const bool wrong =
             (use == SlotUse::Color && depth) || (use == SlotUse::Depth && !depth) || (use == SlotUse::Storage && depth);
@@ -328,10 +408,11 @@ private:
                                        std::to_string(right.samples) + ")",
                                    "give both the same \"samples\"");
         }
-        if (left.extent.width != right.extent.width || left.extent.height != right.extent.height) {
+        const rhi::Extent3D one = extentOf(a), other = extentOf(b);
+        if (one.width != other.width || one.height != other.height) {
             linker_.reporter.error(placeOf(b), "P039",
                                    "targets of '" + pass.says->name + "' differ in size: '" + left.name + "' (" +
-                                       text(left.extent) + "), '" + right.name + "' (" + text(right.extent) + ")",
+                                       text(one) + "), '" + right.name + "' (" + text(other) + ")",
                                    "give both the same \"size\"");
         }
     }
@@ -341,11 +422,12 @@ private:
         const PlanResource& b = resourceOf(to).plan;
         const bool lentBuffer = a.isBuffer && (a.bytes == 0 || b.bytes == 0);  // its size is known when it is lent
         if (a.isBuffer == b.isBuffer && (a.bytes == b.bytes || lentBuffer || !a.isBuffer) && a.format == b.format &&
-            a.extent == b.extent && a.samples == b.samples)
+            extentOf(from) == extentOf(to) && levelsOf(from) == levelsOf(to) && a.is3D == b.is3D &&
+            a.samples == b.samples)
             return;
         linker_.reporter.error(placeOf(to), "P039",
                                "copy pass '" + pass.says->name + "' needs equal images or buffers: '" + a.name +
-                                   "' and '" + b.name + "' differ in kind, format, size or samples");
+                                   "' and '" + b.name + "' differ in kind, format, size, levels or samples");
     }
 
     // One image twice in a pass is fine while nobody writes it.
@@ -358,11 +440,15 @@ private:
                 if (a.in == none || b.in == none || linker_.versions[a.in].resource != linker_.versions[b.in].resource)
                     continue;
                 if (a.says->access == SlotAccess::Read && b.says->access == SlotAccess::Read) continue;
+                // So a pyramid is built: one level from the one below it.
+                const std::uint32_t levelA = levelOf(*a.says), levelB = levelOf(*b.says);
+                if (levelA != none && levelB != none && levelA != levelB) continue;
                 linker_.reporter.error(placeOf(b), "P042",
                                        "slots '" + a.says->name + "' and '" + b.says->name + "' of '" +
                                            pass.says->name + "' use '" + resourceOf(a).plan.name +
                                            "' at once, and one writes it",
-                                       "write to another attachment");
+                                       resourceOf(a).plan.mipLevels > 1 ? "give each a \"level\" of its own"
+                                                                        : "write to another attachment");
             }
         }
     }

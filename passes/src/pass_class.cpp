@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-#include <pelage/passes/pass_class.hpp>
+#include "graph_state.hpp"
 
 namespace pelage::passes {
 namespace {
@@ -13,6 +13,17 @@ const PlanParameter* named(const std::vector<PlanParameter>& values, std::string
 
 }  // namespace
 
+std::optional<double> constantOf(const Plan& plan, const PlanPass& pass, const std::string& name) {
+    if (const auto found = pass.constants.find(name); found != pass.constants.end()) return found->second;
+    for (const PlanSlot& slot : pass.slots) {
+        if (slot.bind.empty()) continue;
+        const bool connected = slot.resource != ~0U;
+        if (name == slot.bind + "_present") return connected ? 1 : 0;
+        if (name == slot.bind + "_samples") return connected ? plan.resources[slot.resource].samples : 1;
+    }
+    return std::nullopt;
+}
+
 double PassParameters::number(std::string_view name) const {
     const PlanParameter* found = named(values_, name);
     return found ? found->number : 0;
@@ -22,6 +33,21 @@ const std::string& PassParameters::word(std::string_view name) const {
     static const std::string nothing;
     const PlanParameter* found = named(values_, name);
     return found ? found->word : nothing;
+}
+
+rhi::ProgrammableStage PassSetup::stage(const rhi::ShaderModule& module) const {
+    rhi::ProgrammableStage made{.module = module};
+    for (const rhi::SpecConstant& constant : module.reflection().specConstants) {
+        asked.names.push_back(constant.name);
+        if (const std::optional<double> value = constantOf(plan, pass, constant.name))
+            made.constants.push_back({constant.name, *value});
+    }
+    return made;
+}
+
+const std::map<std::string, double>& PassSetup::constants() const {
+    asked.all = true;
+    return pass.constants;
 }
 
 bool PassClassRegistry::add(PassClass made) {

@@ -55,11 +55,6 @@ const char* kindStyle(const PlanResource& resource) {
     return styles[static_cast<std::size_t>(resource.kind)];
 }
 
-std::string work(const PlanPass& pass) {
-    if (!pass.passClass.empty()) return "class " + pass.passClass;
-    return pass.drawList.empty() ? pass.shader : "list " + pass.drawList;
-}
-
 // What a pass cost, with the same index as the plan's; a pass that was not measured has nothing.
 std::vector<PassReport> reportsOf(const Plan& plan, const std::vector<PassReport>& measured) {
     std::vector<PassReport> reports(plan.passes.size());
@@ -97,7 +92,7 @@ private:
         return line(x, 0, x, height, "rule") +
                box(x + 3, 2, columnWidth - 6, headHeight - 10, kind.substr(0, 4).c_str()) +
                words(x + 10, 20, "name", cut(std::to_string(index + 1) + ". " + pass.name, 17)) +
-               words(x + 10, 35, "small", kind) + words(x + 10, 49, "small", cut(work(pass), 20));
+               words(x + 10, 35, "small", kind) + words(x + 10, 49, "small", cut(workText(pass), 20));
     }
 
     std::string meters() const {

@@ -33,11 +33,9 @@ std::string Plan::dot() const {
         const auto views = viewCounts.find(pass.view);
         const std::string times =
             pass.forEachLayer && views != viewCounts.end() ? std::to_string(views->second) + " layers" : "";
-        const std::string work = !pass.passClass.empty()  ? "class " + pass.passClass
-                                 : !pass.drawList.empty() ? "list " + pass.drawList
-                                                          : pass.shader;
         out += "    " + quoted("pass " + pass.name) + " [shape=box, label=" +
-               lines({std::to_string(i + 1) + ". " + pass.name, std::string(word(pass.kind)), work, times}) + "];\n";
+               lines({std::to_string(i + 1) + ". " + pass.name, std::string(word(pass.kind)), workText(pass), times}) +
+               "];\n";
     }
     for (std::size_t i = 0; i < resources.size(); ++i) {
         const PlanResource& resource = resources[i];

@@ -8,10 +8,19 @@ namespace pelage::passes {
 std::string shapeText(const PlanResource& resource) {
     if (resource.isBuffer) return "buffer";
     std::string text = std::to_string(resource.extent.width) + " x " + std::to_string(resource.extent.height);
+    if (resource.is3D) text += " x " + std::to_string(resource.extent.depthOrArrayLayers);
     if (resource.layers > 1) text += " x " + std::to_string(resource.layers);
     text += " " + std::string(rhi::name(resource.format));
+    if (resource.is3D) text += " 3D";
+    if (resource.mipLevels > 1) text += ", " + std::to_string(resource.mipLevels) + " levels";
     if (resource.samples > 1) text += ", " + std::to_string(resource.samples) + " samples";
     return text;
+}
+
+std::string workText(const PlanPass& pass) {
+    const bool own = !pass.passClass.empty() && pass.passClass != drawListClass;
+    if (!pass.drawList.empty()) return "list " + pass.drawList + (own ? ", class " + pass.passClass : "");
+    return own ? "class " + pass.passClass : pass.shader;
 }
 
 std::string byteText(std::uint64_t bytes) {
@@ -28,10 +37,11 @@ std::string byteText(std::uint64_t bytes) {
 
 std::string versionText(const PlanSlot& slot) {
     const auto version = [](std::uint32_t number) { return "v" + std::to_string(number); };
-    if (slot.access == SlotAccess::Read) return slot.reads == ~0U ? "as lent" : version(slot.reads);
-    if (slot.makes == ~0U) return "as lent";
-    if (slot.access == SlotAccess::Write || slot.reads == ~0U) return version(slot.makes);
-    return version(slot.reads) + "-" + version(slot.makes);
+    const std::string level = slot.level == ~0U ? "" : " level " + std::to_string(slot.level);
+    if (slot.access == SlotAccess::Read) return (slot.reads == ~0U ? "as lent" : version(slot.reads)) + level;
+    if (slot.makes == ~0U) return "as lent" + level;
+    if (slot.access == SlotAccess::Write || slot.reads == ~0U) return version(slot.makes) + level;
+    return version(slot.reads) + "-" + version(slot.makes) + level;
 }
 
 std::string loadStoreText(const PlanSlot& slot) {

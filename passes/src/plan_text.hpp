@@ -9,11 +9,13 @@
 
 namespace pelage::passes {
 
-/// "640 x 640 x 2 RGBA16Float, 4 samples"; of a buffer, "buffer".
+/// "640 x 640 x 2 RGBA16Float, 4 samples", "64 x 64 x 64 R16Float 3D, 7 levels"; of a buffer, "buffer".
 std::string shapeText(const PlanResource& resource);
+/// What records it: "list forward", "class Outline", "list shade, class Points", or its shader.
+std::string workText(const PlanPass& pass);
 /// "6.25 MiB", "64 KiB", "16 B".
 std::string byteText(std::uint64_t bytes);
-/// "v1"; "v1-v2" of what is changed; "as lent".
+/// "v1"; "v1-v2" of what is changed; "as lent"; "v3 level 2" of one mip level.
 std::string versionText(const PlanSlot& slot);
 /// "load", "clear" or "-", then "store" or "discard"; empty for a slot that only reads.
 std::string loadStoreText(const PlanSlot& slot);

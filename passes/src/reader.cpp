@@ -211,6 +211,7 @@ SizeDeclaration readSize(const Value& value, const std::string& about, Reporter&
             size.height = numberOrSetting(fixed->elements[1]);
         }
     }
+    if (const Value* depth = value.find("depth")) size.depth = numberOrSetting(*depth);
     if (ways != 1) reporter.error(value.place, "P025", about + " needs exactly one of frame, like, square and fixed");
     return size;
 }
@@ -246,7 +247,7 @@ BytesDeclaration readBytes(const Value& value, const std::string& about, Reporte
 // What only images or only buffers have.
 void membersOfKind(const Member& attachment, bool buffer, Reporter& reporter) {
     const std::string title = "attachment '" + attachment.key + "' is " + (buffer ? "a buffer" : "an image");
-    for (const char* key : {"format", "size", "formatFallbacks", "samples", "layers"}) {
+    for (const char* key : {"format", "size", "formatFallbacks", "samples", "layers", "mipLevels"}) {
         const Member* found = attachment.value.member(key);
         if (buffer && found)
             reporter.error(found->place, "P056", title + ": it has no \"" + std::string(key) + "\"", "remove it");
@@ -268,6 +269,7 @@ AttachmentDeclaration readAttachment(const Member& member, Reporter& reporter) {
     attachment.isBuffer = wordOf(value, "kind") == "buffer";
     const Value* history = value.find("history");
     attachment.history = history && history->number > 0;
+    attachment.historyPlace = placeOf(value, "history");
     membersOfKind(member, attachment.isBuffer, reporter);
     if (const Value* bytes = value.find("bytes"))
         attachment.bytes = readBytes(*bytes, "size of 'att." + member.key + "'", reporter);
@@ -287,6 +289,16 @@ AttachmentDeclaration readAttachment(const Member& member, Reporter& reporter) {
         attachment.size = readSize(*size, "size of 'att." + member.key + "'", reporter);
     if (const Value* samples = value.find("samples")) attachment.samples = numberOrSetting(*samples);
     if (attachment.samples.place.line == 0) attachment.samples.place = member.place;
+    attachment.mipLevels.place = member.place;
+    if (const Value* levels = value.find("mipLevels")) {
+        attachment.mipLevels = numberOrSetting(*levels);
+        attachment.allMipLevels = levels->isString();
+        if (levels->isString() && levels->string != "full") {
+            reporter.error(levels->place, "P061",
+                           "mipLevels of 'att." + member.key + "' cannot be '" + levels->string + "'",
+                           didYouMean(levels->string, {"full"}, "write a number, or \"full\""));
+        }
+    }
     attachment.layersPlace = placeOf(value, "layers");
     if (const Value* layers = value.find("layers")) {
         if (layers->isObject()) {

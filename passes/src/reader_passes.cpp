@@ -64,6 +64,8 @@ SlotDeclaration readSlot(const Member& member, Reporter& reporter) {
     slot.bind = wordOf(value, "bind");
     slot.bindPlace = placeOf(value, "bind");
     slot.optional = flagOf(value, "optional", false);
+    slot.levelPlace = placeOf(value, "level");
+    if (const Value* level = value.find("level")) slot.level = wholeNumber(level->number, 0);
     slot.dontCare = wordOf(value, "load") == "dontCare";
     slot.blendPremultiplied = wordOf(value, "blend") == "premultiplied";
     slot.depthTestAlways = wordOf(value, "depthTest") == "always";
@@ -168,15 +170,15 @@ private:
         pass_.forEachLayer = value_.find("forEachView") != nullptr;
         pass_.enabled = flagOf(value_, "enabled", true);
         pass_.sideEffects = flagOf(value_, "sideEffects", false);
-        const std::string sort = wordOf(value_, "sort");
-        pass_.sort = sort == "frontToBack"   ? PlanPass::Sort::FrontToBack
-                     : sort == "backToFront" ? PlanPass::Sort::BackToFront
-                                             : PlanPass::Sort::None;
+        if (const Member* sort = value_.member("sort")) {
+            reporter_.warning(sort->place, "P063", title() + ": \"sort\" has no effect",
+                              "remove it; the class that draws a list chooses the order in it");
+        }
         readTriple("dispatch", pass_.dispatch);
         readTriple("threads", pass_.threads);
         pass_.dispatchLike = wordOf(value_, "dispatchLike");
         pass_.dispatchPlace = placeOf(value_, "dispatchLike");
-        pass_.dispatchIndirect = wordOf(value_, "dispatchIndirect");
+        readIndirect();
         pass_.indirectPlace = placeOf(value_, "dispatchIndirect");
         const char* before = nullptr;
         for (const char* key : {"dispatch", "dispatchLike", "dispatchIndirect"}) {
@@ -192,6 +194,19 @@ private:
             reporter_.error(threads->place, "P028", title() + " has \"threads\", which only \"dispatchLike\" uses",
                             "add \"dispatchLike\", or remove it");
         }
+    }
+
+    void readIndirect() {
+        const Value* indirect = value_.find("dispatchIndirect");
+        if (!indirect) return;
+        pass_.dispatchIndirect = indirect->isString() ? indirect->string : wordOf(*indirect, "slot");
+        const Value* offset = indirect->isObject() ? indirect->find("offset") : nullptr;
+        if (!offset) return;
+        pass_.indirectOffset = wholeNumber(offset->number, 0);
+        if (pass_.indirectOffset % 4 != 0)
+            reporter_.error(offset->place, "P028",
+                            title() + " reads its counts at byte " + std::to_string(pass_.indirectOffset),
+                            "an offset is a multiple of 4");
     }
 
     void readTriple(std::string_view key, std::uint32_t (&out)[3]) {

@@ -61,8 +61,8 @@ std::vector<std::string> PassTree::drawLists() const {
 std::vector<std::string> PassTree::exports() const {
     return namesOf(description_->exports);
 }
-std::vector<ImportInfo> PassTree::imports() const {
-    std::vector<ImportInfo> infos;
+std::vector<WantedImport> PassTree::imports() const {
+    std::vector<WantedImport> infos;
     for (const ImportDeclaration& import : description_->imports) {
         using Kind = ImportDeclaration::Kind;
         infos.push_back({.name = import.name,
@@ -83,6 +83,12 @@ std::vector<std::string> PassTree::passClasses() const {
 }
 const Diagnostics& PassTree::warnings() const {
     return description_->warnings;
+}
+
+rhi::Extent3D levelExtent(const rhi::Extent3D& extent, bool is3D, std::uint32_t level) {
+    const auto side = [level](std::uint32_t whole) { return std::max(1U, whole >> level); };
+    return {side(extent.width), side(extent.height),
+            is3D ? side(extent.depthOrArrayLayers) : extent.depthOrArrayLayers};
 }
 
 Result<Plan> PassTree::compile(const HostDescription& host) const {

@@ -3,6 +3,8 @@
 
 #include "device_object.hpp"
 
+#include <algorithm>
+
 namespace pelage::rhi {
 namespace detail {
 
@@ -11,42 +13,45 @@ TransientHeapObject::~TransientHeapObject() {
     device->bury(lastUse, [memory = allocation](DeviceObject& d) { d.memory.release(memory); });
 }
 
-void HeapOwners::split(std::uint64_t at) {
-    const auto after = spans_.upper_bound(at);
-    const auto span = std::prev(after);
-    if (span->first == at || span->second.end <= at) return;
-    Span right = span->second;
-    span->second.end = at;
-    spans_.emplace_hint(after, at, std::move(right));
+std::size_t HeapOwners::cut(std::uint64_t at) {
+    const auto span = std::partition_point(spans_.begin(), spans_.end(), [at](const Span& s) { return s.end <= at; });
+    const auto index = static_cast<std::size_t>(span - spans_.begin());
+    if (span == spans_.end() || span->begin == at) return index;
+    Span left = *span;
+    left.end = at;
+    span->begin = at;
+    spans_.insert(span, std::move(left));
+    return index + 1;
 }
 
 AccessState HeapOwners::take(std::uint64_t begin, std::uint64_t end, const std::shared_ptr<TextureState>& texture) {
-    split(begin);
-    split(end);
+    const std::size_t first = cut(begin), last = cut(end);
     const auto add = [](AccessState& to, const AccessState& more) {
         to.writeStages |= more.writeStages;
         to.readStages |= more.readStages;
         to.writeAccess |= more.writeAccess;
     };
     AccessState before;
-    std::vector<std::shared_ptr<TextureState>> displaced;
-    for (auto i = spans_.find(begin); i != spans_.end() && i->first < end; ++i) {
-        add(before, i->second.residue);
-        if (i->second.owner != nullptr && i->second.owner != texture) displaced.push_back(i->second.owner);
+    displaced_.clear();
+    for (std::size_t i = first; i < last; ++i) {
+        add(before, spans_[i].residue);
+        if (spans_[i].owner != nullptr && spans_[i].owner != texture) displaced_.push_back(spans_[i].owner);
     }
-    for (const auto& owner : displaced) {
+    for (const auto& owner : displaced_) {
         const AccessState used = owner->history();
         add(before, used);
         // The bytes it keeps have no owner now, but whoever comes next must wait for it all the same.
-        for (auto& [start, span] : spans_)
+        for (Span& span : spans_)
             if (span.owner == owner) {
                 add(span.residue, used);
                 span.owner = nullptr;
             }
         owner->current = false;
     }
-    spans_.erase(spans_.find(begin), spans_.lower_bound(end));
-    spans_.emplace(begin, Span{end, texture, {}});
+    displaced_.clear();
+    spans_[first] = {begin, end, texture, {}};
+    spans_.erase(spans_.begin() + static_cast<std::ptrdiff_t>(first) + 1,
+                 spans_.begin() + static_cast<std::ptrdiff_t>(last));
     texture->current = true;
     return before;
 }

@@ -2,8 +2,6 @@
 // Memory that textures share, and who owns which bytes of it at the moment.
 #pragma once
 
-#include <map>
-
 #include "objects.hpp"
 
 namespace pelage::rhi::detail {
@@ -11,18 +9,21 @@ namespace pelage::rhi::detail {
 /// Ownership of the bytes of one heap. Kept in the order of the queue, under its mutex; needs no device.
 class HeapOwners {
 public:
-    explicit HeapOwners(std::uint64_t size) { spans_.emplace(0, Span{size, {}, {}}); }
+    explicit HeapOwners(std::uint64_t size) : spans_{{.end = size}} {}
     /// `texture` becomes the owner of [begin, end). Gives what used those bytes before: stages and writes to wait for.
     AccessState take(std::uint64_t begin, std::uint64_t end, const std::shared_ptr<TextureState>& texture);
 
 private:
     struct Span {
-        std::uint64_t end = 0;
+        std::uint64_t begin = 0, end = 0;
         std::shared_ptr<TextureState> owner;
         AccessState residue = {};  // uses by owners before, when there is none now
     };
-    void split(std::uint64_t at);
-    std::map<std::uint64_t, Span> spans_;  // by their beginning; they cover the heap without gaps
+    /// The index of the span that begins there; one is cut in two where none does.
+    std::size_t cut(std::uint64_t at);
+    // Vectors that keep their memory, as each frame cuts and joins the same spans.
+    std::vector<Span> spans_;  // in the order of their bytes; they cover the heap without gaps
+    std::vector<std::shared_ptr<TextureState>> displaced_;  // by the take() that is under way
 };
 
 struct TransientHeapObject final : Object {

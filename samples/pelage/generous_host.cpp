@@ -6,8 +6,8 @@ namespace pelage::app {
 passes::HostDescription generousHost(const passes::PassTree& tree, const rhi::Extent3D& extent) {
     passes::HostDescription host{.extent = extent};
     host.trustClasses = true;
-    for (const passes::ImportInfo& import : tree.imports()) {
-        passes::ImportDescription lent{
+    for (const passes::WantedImport& import : tree.imports()) {
+        passes::LentImport lent{
             .present = true, .format = rhi::TextureFormat::RGBA16Float, .extent = host.extent};
         if (!import.formats.empty()) lent.format = import.formats.front();
         if (!import.samples.empty()) lent.samples = import.samples.front();

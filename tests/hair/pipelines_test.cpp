@@ -6,7 +6,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <condition_variable>
+#include <fstream>
+#include <iterator>
 #include <mutex>
 #include <set>
 #include <thread>
@@ -29,24 +32,10 @@ rhi::RenderPipelineDescriptor someDescriptor() {
     return out;
 }
 
-std::uint64_t keyOf(const rhi::RenderPipelineDescriptor& descriptor) {
-    const std::uint32_t vertex[] = {0x07230203, 1, 2}, fragment[] = {0x07230203, 3};
-    return hair::pipelineKey(descriptor, hair::codeHash(vertex), hair::codeHash(fragment));
-}
-
-TEST(PipelineKey, IsTheSameOnEveryPlatformAndInEveryRun) {
-    EXPECT_EQ(keyOf(someDescriptor()), 0x913AE3AD07BBDF0AULL);
-    const std::uint32_t one[] = {0x61};
-    // FNV-1a of the bytes 61 00 00 00, worked out apart from this code.
-    EXPECT_EQ(hair::codeHash(one), 0xAC804B820E4FE984ULL);
-}
-
-TEST(PipelineKey, CountsEverythingButTheLabelAndTheOrderOfConstants) {
-    const std::uint64_t key = keyOf(someDescriptor());
+TEST(SamePipeline, EverythingButTheLabelTellsThemApart) {
     rhi::RenderPipelineDescriptor same = someDescriptor();
     same.label = "another";
-    std::swap(same.vertex.constants[0], same.vertex.constants[1]);
-    EXPECT_EQ(keyOf(same), key);
+    EXPECT_TRUE(hair::samePipeline(same, someDescriptor()));
 
     using Change = void (*)(rhi::RenderPipelineDescriptor&);
     const Change changes[] = {
@@ -82,22 +71,41 @@ TEST(PipelineKey, CountsEverythingButTheLabelAndTheOrderOfConstants) {
         [](auto& d) { d.targets[0].writeMask = rhi::ColorWriteMask::Red; },
         [](auto& d) { d.targets.push_back(d.targets[0]); },
     };
-    std::set<std::uint64_t> keys{key};
-    for (const Change change : changes) {
+    for (std::size_t i = 0; i < std::size(changes); ++i) {
         rhi::RenderPipelineDescriptor changed = someDescriptor();
-        change(changed);
-        EXPECT_TRUE(keys.insert(keyOf(changed)).second) << "change " << keys.size() - 1;
+        changes[i](changed);
+        EXPECT_FALSE(hair::samePipeline(changed, someDescriptor())) << "change " << i;
+        EXPECT_FALSE(hair::samePipeline(someDescriptor(), changed)) << "change " << i;
+        EXPECT_TRUE(hair::samePipeline(changed, changed)) << "change " << i;
     }
-    const std::uint32_t other[] = {0x07230203, 4};
-    EXPECT_TRUE(keys.insert(hair::pipelineKey(someDescriptor(), hair::codeHash(other), 0)).second);
+}
+
+TEST(SamePipeline, AnotherModuleIsAnotherPipeline) {
+    const auto shader = [](const char* name) {
+        const auto code = hair::Renderer::shaderCode(name);
+        return value(Gpu::get().device.createShaderModule({.label = name, .code = {code.begin(), code.end()}}));
+    };
+    const rhi::ShaderModule one = shader("resolve.frag"), other = shader("copy.frag"), rows = shader("rows.comp");
+    rhi::RenderPipelineDescriptor a = someDescriptor(), b = someDescriptor();
+    a.fragment->module = b.fragment->module = one;
+    EXPECT_TRUE(hair::samePipeline(a, b));
+    b.fragment->module = other;
+    EXPECT_FALSE(hair::samePipeline(a, b));
+    b = a;
+    b.vertex.module = other;
+    EXPECT_FALSE(hair::samePipeline(a, b));
+    const rhi::ComputePipelineDescriptor none, compute{.label = "rows", .compute = {.module = rows}};
+    EXPECT_TRUE(hair::samePipeline(none, {.label = "any"}));
+    EXPECT_FALSE(hair::samePipeline(none, compute));
+    EXPECT_FALSE(hair::samePipeline(compute, {.compute = {.module = rows, .constants = {{"model", 1}}}}));
 }
 
 // Opens for whoever waits before a pipeline is made; remembers who came.
 class Gate {
 public:
-    void pass(std::uint64_t key) {
+    void pass(const std::string& label) {
         std::unique_lock lock(mutex_);
-        keys_.push_back(key);
+        labels_.push_back(label);
         threads_.insert(std::this_thread::get_id());
         changed_.notify_all();
         if (!open_ && std::this_thread::get_id() == drawing_) {
@@ -115,9 +123,9 @@ public:
         const std::lock_guard lock(mutex_);
         return threads_;
     }
-    std::vector<std::uint64_t> keys() {
+    std::vector<std::string> labels() {
         const std::lock_guard lock(mutex_);
-        return keys_;
+        return labels_;
     }
 
 private:
@@ -125,7 +133,7 @@ private:
     std::condition_variable changed_;
     bool open_ = true;
     const std::thread::id drawing_ = std::this_thread::get_id();
-    std::vector<std::uint64_t> keys_;
+    std::vector<std::string> labels_;
     std::set<std::thread::id> threads_;
 };
 
@@ -136,7 +144,7 @@ protected:
         auto made = hair::Renderer::create({.device = Gpu::get().device,
                                             .tree = *tree,
                                             .pipelines = mode,
-                                            .beforePipeline = [this](std::uint64_t key) { gate.pass(key); }});
+                                            .beforePipeline = [this](const std::string& label) { gate.pass(label); }});
         EXPECT_TRUE(made);
         return *made;
     }
@@ -156,11 +164,11 @@ TEST_F(Pipelines, OnlyCombinationsInUseAreMadeAndEachOnce) {
     hair::Scene scene = portrait(strands(), material("brown"));
     hair::Renderer drawing = renderer(hair::PipelineMode::Synchronous);
     const auto made = [&](std::uint32_t size) {
-        const std::size_t before = gate.keys().size();
+        const std::size_t before = gate.labels().size();
         const hair::Picture picture = render(drawing, scene, size);
-        EXPECT_EQ(picture.report.pipelinesMade, gate.keys().size());
+        EXPECT_EQ(picture.report.pipelinesMade, gate.labels().size());
         EXPECT_EQ(picture.report.pipelinesPending, 0U);
-        return gate.keys().size() - before;
+        return gate.labels().size() - before;
     };
     EXPECT_EQ(made(64), 6U) << "hair and skin, each in the shadow, depth and forward passes";
     EXPECT_EQ(made(64), 0U);
@@ -173,21 +181,43 @@ TEST_F(Pipelines, OnlyCombinationsInUseAreMadeAndEachOnce) {
     EXPECT_EQ(made(64), 0U) << "known from before";
     scene.objects.push_back(scene.objects.back());
     EXPECT_EQ(made(64), 0U) << "a second object of the same kind";
-    const auto keys = gate.keys();
-    EXPECT_EQ(std::set<std::uint64_t>(keys.begin(), keys.end()).size(), keys.size());
+    const auto labels = gate.labels();
+    EXPECT_EQ(
+        std::count_if(labels.begin(), labels.end(), [](const std::string& each) { return each.ends_with(" forward"); }),
+        3)
+        << "of the skin, and of the hair with TT and without";
     EXPECT_EQ(gate.threads(), std::set<std::thread::id>{std::this_thread::get_id()});
 }
 
-TEST_F(Pipelines, KeysAreTheSameInAnotherRenderer) {
+TEST_F(Pipelines, AnotherRendererMakesTheSameInTheSameOrder) {
     hair::Scene scene = portrait(strands(), material("brown"));
     hair::Renderer first = renderer(hair::PipelineMode::Synchronous);
     render(first, scene, 32);
-    const auto before = gate.keys();
+    const auto before = gate.labels();
     hair::Renderer second = renderer(hair::PipelineMode::Synchronous);
     render(second, scene, 32);
-    const auto all = gate.keys();
+    const auto all = gate.labels();
     ASSERT_EQ(all.size(), 2 * before.size());
     EXPECT_TRUE(std::equal(before.begin(), before.end(), all.begin() + static_cast<std::ptrdiff_t>(before.size())));
+}
+
+// A draw list takes constants of the file: what the pass says goes before what the material says.
+TEST_F(Pipelines, ConstantsOfAPassGoBeforeTheMaterials) {
+    std::ifstream in(std::string(PELAGE_DATA_DIR) + "/frames/hair_frame.pass.json", std::ios::binary);
+    std::string text{std::istreambuf_iterator<char>(in), {}};
+    const std::string list = "\"drawList\": \"forward\"";
+    ASSERT_NE(text.find(list), std::string::npos);
+    text.insert(text.find(list), R"("constants": { "shadowMode": 0 }, )");
+    const auto tree = passes::PassTree::parse(text, "unshadowed.pass.json");
+    ASSERT_TRUE(tree) << tree.error().text();
+    hair::Scene scene = portrait(strands(), material("brown"));
+    auto unshadowed = hair::Renderer::create({.device = Gpu::get().device, .tree = *tree});
+    ASSERT_TRUE(unshadowed);
+    hair::Renderer usual = renderer(hair::PipelineMode::Synchronous);
+    const hair::Picture byPass = render(*unshadowed, scene, 64);
+    EXPECT_NE(byPass.display, render(usual, scene, 64).display);
+    for (hair::Object& object : scene.objects) EXPECT_FALSE(object.material.setFromText("shadowing.mode", "off"));
+    EXPECT_EQ(byPass.display, render(usual, scene, 64).display);
 }
 
 // The gate is shut while frames are recorded: were one of them to wait for a pipeline, this would never end.
@@ -200,7 +230,7 @@ TEST_F(Pipelines, AChangedMaterialNeverWaitsInTheBackground) {
     const hair::Picture after = render(whole, scene, 64);
     ASSERT_NE(before.display, after.display);
     set(scene, "shadowing.mode", "hard");
-    const std::size_t synchronous = gate.keys().size();
+    const std::size_t synchronous = gate.labels().size();
 
     hair::Renderer drawing = renderer(hair::PipelineMode::Background);
     gate.set(false);
@@ -232,7 +262,7 @@ TEST_F(Pipelines, AChangedMaterialNeverWaitsInTheBackground) {
     gate.set(true);
     const auto threads = gate.threads();
     EXPECT_EQ(threads.size(), 2U) << "this one for the synchronous renderer, one for the other";
-    EXPECT_EQ(gate.keys().size(), synchronous + 7);
+    EXPECT_EQ(gate.labels().size(), synchronous + 7);
 }
 
 // Blending moves the object to other passes: it must not vanish between them.
@@ -277,7 +307,7 @@ TEST_F(Pipelines, ARendererMayGoWhilePipelinesArePending) {
         hair::Renderer drawing = renderer(hair::PipelineMode::Background);
         render(drawing, scene, 32);
     }
-    EXPECT_LE(gate.keys().size(), 6U);
+    EXPECT_LE(gate.labels().size(), 6U);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ TEST(Shipped, TypesReadWithoutAWord) {
         }
         for (const std::string& preset : (*type)->presets()) {
             EXPECT_EQ(codeOf(material.applyPreset(preset)), "none") << preset;
-            EXPECT_GT(material.compile().inputsVersion, 0U);
+            EXPECT_FALSE(material.compile().inputs.empty());
         }
     }
 }

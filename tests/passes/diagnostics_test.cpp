@@ -56,7 +56,10 @@ const std::vector<Case>& cases() {
          R"("slots": { "source": { "access": "read", "as": "sampled", "bind": "u_x" }, "scene": {)",
          "\"source\": { \"access\": \"read\", \"as\": \"sampled\", \"bind\": \"u_x\"", 0, "template"},
         {"P010", When::Parse, R"( "drawList": "hair.shadow",)", "", "{\n      \"name\": \"Shadow\"", 0, "drawList"},
-        {"P011", When::Parse, R"("drawList": "hair.forward", "sort")", R"("drawList": "hair.foward", "sort")",
+        {"P011", When::Parse, R"("view": "main", "drawList": "hair.forward",
+      "slots")",
+         R"("view": "main", "drawList": "hair.foward",
+      "slots")",
          "\"hair.foward\"", 0, "hair.forward"},
         {"P012", When::Parse, R"(, "shader": "blur.frag")", "", "{\n      \"name\": \"Blur\"", 0, "no \"shader\""},
         {"P013", When::Parse, R"("table": "Count.table", "lights")", R"("lights")", "\"table\":  {", 0,
@@ -177,24 +180,26 @@ const std::vector<Case>& cases() {
          "{\n      \"name\": \"Keep\"", 0, "one slot that reads"},
         {"P003", When::Parse, R"("class": "Blend")", R"("class": "Blend", "kind": "raster")",
          "{\n      \"name\": \"Blend\"", 0, "exactly one", "", "", true},
-        {"P014", When::Parse, R"("dispatchIndirect": "args")", R"("dispatchIndirect": "arg")", "\"arg\"", 0, "'args'",
-         "", "", true},
+        {"P014", When::Parse, R"("slot": "args")", R"("slot": "arg")", "{ \"slot\": \"arg\"", 0, "'args'", "", "",
+         true},
         {"P017", When::Parse, R"("points": "att.Points")", R"("points": "history.Points")", "\"history.Points\" }\n", 0,
          "'att.Points'", "", "", true},
-        {"P023", When::Parse, R"("dispatchIndirect": "args")", R"("dispatchIndirect": "before")", "\"before\",\n", 0,
-         "indirect", "", "", true},
+        {"P023", When::Parse, R"("dispatchIndirect": { "slot": "args", "offset": 4 })",
+         R"("dispatchIndirect": "before")", "\"before\",\n", 0, "indirect", "", "", true},
         {"P023", When::Parse, R"("points": { "access": "read", "as": "vertex" })",
          R"("points": { "access": "readWrite", "as": "vertex" })", "\"points\": { \"access\": \"readWrite\"", 0,
          "only be read", "", "", true},
         {"P023", When::Compile, R"("heads": { "access": "read", "as": "storage", "bind": "b_heads" })",
          R"("heads": { "access": "read", "as": "copy" })", "\"heads\": { \"access\": \"read\"", 0, "class 'Blend'", "",
          "", true},
-        {"P024", When::Parse, R"("class": "Blend",)", R"("class": "Blend", "drawList": "hair.forward",)",
-         "\"hair.forward\",\n      \"slots\": {\n        \"drawn\"", 0, "its class records it", "", "", true},
+        {"P011", When::Parse, R"("class": "Blend",)", R"("class": "Blend", "drawList": "hair.forwrad",)",
+         "\"hair.forwrad\"", 0, "'hair.forward'", "", "", true},
+        {"P024", When::Parse, R"("class": "Blend",)", R"("class": "Blend", "shader": "blend.frag",)", "\"blend.frag\"",
+         0, "its class records it", "", "", true},
         {"P027", When::Parse, R"("clear": [0.25, 0, 0, 1])", R"("clear": 0)",
          "0 }\n      },\n      \"connect\": { \"drawn\"", 0, "[r, g, b, a]", "", "", true},
-        {"P028", When::Parse, R"("dispatchIndirect": "args")", R"("dispatch": [1, 1, 1], "dispatchIndirect": "args")",
-         "\"args\",\n      \"slots\"", 0, "both", "", "", true},
+        {"P028", When::Parse, R"("dispatchIndirect": {)", R"("dispatch": [1, 1, 1], "dispatchIndirect": {)",
+         "{ \"slot\": \"args\"", 0, "both", "", "", true},
         {"P031", When::Parse, R"("like": "att.Drawn")", R"("like": "att.Points")", "\"att.Points\" } },", 0, "image",
          "", "", true},
         {"P037", When::Parse, R"("drawn": "Draw.color")", R"("drawn": "host.Shape")", "\"host.Shape\", \"last\"", 0,
@@ -224,6 +229,43 @@ const std::vector<Case>& cases() {
          "\"samples\"", 0, "a buffer", "", "", true},
         {"P056", When::Parse, R"("kind": "buffer", "bytes": 12)", R"("kind": "buffer", "bytes": { "times": 2 })",
          "{ \"times\"", 0, "exactly one", "", "", true},
+        {"P024", When::Parse, R"("name": "Keep", "kind": "copy",)",
+         R"("name": "Keep", "kind": "copy", "constants": { "k": 1 },)", "\"k\"", 0, "no shader"},
+        {"P028", When::Parse, R"("offset": 4)", R"("offset": 5)", "5 },\n      \"slots\"", 0, "multiple of 4", "", "",
+         true},
+        {"P061", When::Parse, R"("mipLevels": "full")", R"("mipLevels": "ful")", "\"ful\"", 0, "'full'", "", "", true},
+        {"P061", When::Compile, R"("mipLevels": "full")", R"("mipLevels": 5)", "5 },", 0, "1..4", "", "", true},
+        {"P061", When::Compile, R"("mipLevels": 2)", R"("mipLevels": { "setting": "strands" })",
+         "\"strands\" } },\n    \"Heads\"", 0, "1..3", "", "", true},
+        {"P061", When::Compile, R"("bind": "i_coarse", "level": 1)", R"("bind": "i_coarse", "level": 4)", "4 } },", 0,
+         "has 4", R"("bind": "u_grid", "level": 1)", R"("bind": "u_grid", "level": 0)", true},
+        {"P061", When::Compile, R"("bind": "u_grid", "level": 1)", R"("bind": "u_grid", "level": 2)",
+         "\"Half.coarse\", \"lit\"", 0, "which no pass before it writes", "", "", true},
+        {"P061", When::Compile, R"("bind": "u_grid", "level": 1)", R"("bind": "u_grid")", "\"Half.coarse\", \"lit\"", 0,
+         "name the \"level\"", "", "", true},
+        {"P061", When::Parse, R"("args":   { "access": "read", "as": "indirect")",
+         R"("args":   { "access": "read", "as": "indirect", "level": 0)", "0 },\n        \"before\"", 0, "a buffer", "",
+         "", true},
+        {"P061", When::Compile, R"("bind": "b_before")", R"("bind": "b_before", "level": 1)",
+         "1 },\n        \"points\"", 0, "a buffer", "", "", true},
+        {"P042", When::Compile, R"("bind": "u_fine", "level": 0)", R"("bind": "u_fine", "level": 1)",
+         "\"Fill.grid\" }\n", 0, "of its own", "", "", true},
+        {"P062", When::Parse, R"("mipLevels": "full")", R"("mipLevels": "full", "samples": 4)", "4 },\n    \"Lit\"", 0,
+         "no samples", "", "", true},
+        {"P062", When::Parse, R"("mipLevels": "full")", R"("mipLevels": "full", "layers": 2)", "2 },\n    \"Lit\"", 0,
+         "no layers", "", "", true},
+        {"P062", When::Parse, R"("mipLevels": "full")", R"("mipLevels": "full", "history": 1)", "1 },\n    \"Lit\"", 0,
+         "no history", R"("before": "history.Points")", R"("before": ["history.Points", "history.Grid"])", true},
+        {"P062", When::Parse, R"("Grid":   { "format": "R32Float")", R"("Grid":   { "format": "Depth32Float")",
+         "\"Depth32Float\"", 0, "no depth format", "", "", true},
+        {"P062", When::Compile, R"("mipLevels": 2)", R"("mipLevels": 2, "layers": 3)", "3 },\n    \"Heads\"", 0,
+         "as what its size follows", "", "", true},
+        {"P062", When::Compile, R"("Drawn":  { "format": "RGBA16Float", "size": { "frame": 1 } })",
+         R"("Drawn":  { "format": "RGBA16Float", "size": { "frame": 1, "depth": 2 } })", "\"att.Drawn\" }\n", 0,
+         "nothing is drawn into", R"("perPixel": 4, "like": "att.Drawn")", R"("perPixel": 4)", true},
+        {"P063", When::ParseWarning, R"("view": "main", "drawList": "hair.forward",)",
+         R"("view": "main", "drawList": "hair.forward", "sort": "frontToBack",)", "\"sort\"", 0, "no effect", "", "",
+         true},
         {"J011", When::Parse, R"("kind": "buffer", "bytes": 12)", R"("kind": "buffer")", "{ \"kind\": \"buffer\" }", 0,
          "bytes", "", "", true},
         {"D002", When::Compile, R"("default": 100, "min": 1)", R"("default": 0, "min": 0)",
@@ -292,8 +334,10 @@ TEST(Diagnostics, EachFaultIsOneLineWithItsCodeAtItsPlace) {
 }
 
 TEST(Diagnostics, SeveralFaultsComeAtOnceInTheOrderOfTheText) {
-    std::string text =
-        edited(wholeGrammar(), R"("drawList": "hair.forward", "sort")", R"("drawList": "hair.foward", "sort")");
+    std::string text = edited(wholeGrammar(), R"("view": "main", "drawList": "hair.forward",
+      "slots")",
+                              R"("view": "main", "drawList": "hair.foward",
+      "slots")");
     text = edited(text, R"("source": "Blur.color")", R"("source": "Blr.color")");
     text = edited(text, "lights > 0", "lights >");
     // Conditions are read with the file; names are looked at only when it could be read.
@@ -338,7 +382,7 @@ TEST(Diagnostics, WhatTheHostDoesWrong) {
 TEST(Diagnostics, CodesOfTheTableAreCounted) {
     std::set<std::string> different;
     for (const Case& test : cases()) different.insert(test.code);
-    EXPECT_GE(different.size(), 60U);
+    EXPECT_GE(different.size(), 63U);
 }
 
 }  // namespace

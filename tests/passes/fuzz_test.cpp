@@ -168,10 +168,14 @@ const std::vector<Legal>& legalEdits() {
         {"passes.#.parameters.*", {"1"}, "another value in range"},
         {"passes.#.enabledWhen", {"deleted"}, "always on"},
         {"passes.#.forEachView", {"deleted"}, "one view of the kind"},
-        {"passes.#.sort", {"deleted"}, "none when absent"},
         {"passes.#.after", {"[]", "deleted"}, "an order that only the author wanted"},
         {"passes.#.after.#", {"deleted"}, "an order that only the author wanted"},
         {"passes.#.dispatchIndirect", {"deleted"}, "one workgroup when absent"},
+        {"passes.#.dispatchIndirect.offset", {"deleted"}, "0 when absent"},
+        {"passes.#.drawList", {"deleted"}, "a class that takes no list"},
+        {"attachments.*.size.depth", {"1", "deleted"}, "another size; an image that is not 3D"},
+        {"attachments.*.size.square", {"1"}, "another size"},
+        {"attachments.*.mipLevels", {"1", "deleted"}, "1 when absent"},
         {"passes.#.threads", {"deleted"}, "8 x 8 when absent"},
         {"passes.#.threads.#", {"1"}, "another workgroup"},
         {"passes.#.connect.*", {"deleted"}, "an optional slot"},
@@ -197,9 +201,9 @@ TEST(Fuzz, EveryValueDeletedOrReplaced) {
     lent.imports["SceneColor"] = {true, rhi::TextureFormat::RGBA16Float, {64, 48, 1}, 1};
     lent.imports["SceneDepth"] = {true, rhi::TextureFormat::Depth32Float, {64, 48, 1}, 1};
     lent.imports["FrameConstants"] = {true};
-    for (const auto& [text, host] : {std::pair(shippedText("hair_frame.pass.json"), frame),
-                                     std::pair(shippedText("hair_host.pass.json"), lent),
-                                     std::pair(wholeGrammar(), test::host()), std::pair(moreGrammar(), moreHost())}) {
+    for (const auto& [text, host] :
+         {std::pair(shippedText("hair_frame.pass.json"), frame), std::pair(shippedText("hair_host.pass.json"), lent),
+          std::pair(wholeGrammar(), test::host()), std::pair(moreGrammar(), moreHost())}) {
         silent.merge(eachEdit(text, host, tally));
     }
     std::cout << tally.edits << " edits, " << tally.unnoticed << " still a plan\n";

@@ -127,7 +127,7 @@ TEST_F(GraphClassTest, EachKindRecordsWithItsEncoder) {
     for (int i = 0; i < 2; ++i) {
         layers.clear();
         auto encoder = gpu.device.createCommandEncoder("frame");
-        pelage::test::succeed(made.record(encoder, {}, {}));
+        pelage::test::succeed(made.record(encoder));
         run(encoder);
         EXPECT_EQ(layers, (std::vector<std::uint32_t>{0, 1}));
         const auto pixels = read<Pixel>(made.exported("Out"));
@@ -142,7 +142,7 @@ TEST_F(GraphClassTest, EachKindRecordsWithItsEncoder) {
     mustBuild(made, classes, host);
     EXPECT_EQ(created, 2);
     auto encoder = gpu.device.createCommandEncoder("frame");
-    pelage::test::succeed(made.record(encoder, {}, {}));
+    pelage::test::succeed(made.record(encoder));
     run(encoder);
     EXPECT_EQ(read<Pixel>(made.exported("Out"))[2 * 16], (Pixel{191, 127, 0, 0})) << "a setting gave the parameter";
 }
@@ -167,7 +167,7 @@ TEST_F(GraphClassTest, WhatAClassRefusesKeepsTheOldPlan) {
         EXPECT_EQ(made.plansMade(), 1U);
     }
     auto encoder = gpu.device.createCommandEncoder("frame");
-    pelage::test::succeed(made.record(encoder, {}, {}));
+    pelage::test::succeed(made.record(encoder));
     run(encoder);
     EXPECT_EQ(read<Pixel>(made.exported("Out"))[0], (Pixel{191, 127, 0, 0}));
 }
@@ -183,7 +183,7 @@ TEST_F(GraphClassTest, ARecorderThatFailsEndsTheFrame) {
     Graph made = graphWith(std::move(registry));
     mustBuild(made, edited(classes, R"("class": "Copy")", R"("class": "Failing")"), {.extent = {16, 8, 1}});
     auto encoder = gpu.device.createCommandEncoder("frame");
-    const auto done = made.record(encoder, {}, {});
+    const auto done = made.record(encoder);
     ASSERT_FALSE(done);
     EXPECT_EQ(done.error().first().text, "out of paint");
 }

@@ -25,8 +25,23 @@ protected:
         if (code.empty()) return tl::unexpected(Diagnostic{.text = "no shader '" + file + "'"});
         return gpu.device.createShaderModule({.label = file, .code = {code.begin(), code.end()}});
     }
-    Graph graph() {
-        return Graph({.device = gpu.device, .shaders = [this](const std::string& file) { return shader(file); }});
+    /// What records the passes with a draw list.
+    std::function<Result<void>(PassContext&)> draws = [this](PassContext& context) {
+        return drawTriangle(context);
+    };
+    static Result<void> drawNothing(PassContext&) { return {}; }
+    PassClass drawList() {
+        return {.info = {.name = std::string(drawListClass)}, .create = [this](const PassSetup&) {
+                    return Result<PassRecorder>([this](PassContext& context) { return draws(context); });
+                }};
+    }
+    Graph graph(bool poison = false) {
+        PassClassRegistry classes;
+        classes.add(drawList());
+        return Graph({.device = gpu.device,
+                      .shaders = [this](const std::string& file) { return shader(file); },
+                      .classes = std::move(classes),
+                      .poison = poison});
     }
     static Result<void> build(Graph& graph, const std::string& text, const HostDescription& host) {
         const auto tree = PassTree::parse(text, "test.pass.json");
@@ -39,7 +54,7 @@ protected:
     }
 
     // Draws the triangle with a pipeline made for the targets of the pass.
-    Result<void> drawTriangle(RasterContext& context) {
+    Result<void> drawTriangle(PassContext& context) {
         rhi::RenderPipelineDescriptor descriptor{.label = "triangle",
                                                  .vertex = {.module = value(shader("triangle.vert"))}};
         descriptor.multisample.count = context.targets.samples;
@@ -52,15 +67,14 @@ protected:
         }
         auto pipeline = gpu.device.createRenderPipeline(descriptor);
         if (!pipeline) return tl::unexpected(std::move(pipeline.error()));
-        context.encoder.setPipeline(*pipeline);
-        context.encoder.draw(3);
+        context.raster->setPipeline(*pipeline);
+        context.raster->draw(3);
         context.draws += 1;
         return {};
     }
     void frame(Graph& graph, const FrameImports& imports = {}) {
         auto encoder = gpu.device.createCommandEncoder("frame");
-        pelage::test::succeed(
-            graph.record(encoder, imports, [this](RasterContext& context) { return drawTriangle(context); }));
+        pelage::test::succeed(graph.record(encoder, imports));
         run(encoder);
     }
     template <class T>

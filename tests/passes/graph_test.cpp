@@ -156,14 +156,13 @@ TEST_F(GraphTest, EachLayerIsARenderPassOfItsOwn) {
         Graph made = graph();
         mustBuild(made, shadowTree, {.extent = {12, 10, 1}, .depth = depth});
         std::vector<std::uint32_t> views;
-        auto encoder = gpu.device.createCommandEncoder("frame");
-        pelage::test::succeed(made.record(encoder, {}, [&](RasterContext& context) {
+        draws = [&](PassContext& context) {
             views.push_back(context.viewIndex);
             EXPECT_EQ(context.extent, (rhi::Extent3D{16, 16, 1}));
             // Into the first layer only: the others stay far.
             return context.viewIndex == 0 ? drawTriangle(context) : Result<void>{};
-        }));
-        run(encoder);
+        };
+        frame(made);
         EXPECT_EQ(views, (std::vector<std::uint32_t>{0, 1}));
         // The caster lies at 0.5: lit is what is as near or nearer. There is no sky, so black stands in.
         const bool reversed = depth == DepthConvention::Reversed;
@@ -208,7 +207,7 @@ TEST_F(GraphTest, ImportsAreBoundAndMayChangeEachFrame) {
         EXPECT_EQ(read<Pixel>(made.exported("Lit"))[0][2], red);
     }
     auto encoder = gpu.device.createCommandEncoder("without");
-    const auto lacking = made.record(encoder, {}, {});
+    const auto lacking = made.record(encoder);
     ASSERT_FALSE(lacking);
     EXPECT_NE(lacking.error().first().text.find("P080"), std::string::npos);
 }
@@ -250,13 +249,23 @@ TEST_F(GraphTest, AFailedBuildKeepsTheOldPicture) {
 TEST_F(GraphTest, RecordBeforeBuildIsAnError) {
     Graph made = graph();
     auto encoder = gpu.device.createCommandEncoder("frame");
-    EXPECT_FALSE(made.record(encoder, {}, {}));
+    EXPECT_FALSE(made.record(encoder));
     EXPECT_FALSE(made.valid());
     EXPECT_TRUE(made.plan().passes.empty());
 }
 
+TEST_F(GraphTest, WithoutTheClassNobodyDrawsAList) {
+    Graph made({.device = gpu.device, .shaders = [this](const std::string& file) { return shader(file); }});
+    const auto built = build(made, triangleTree, {.extent = {8, 8, 1}});
+    ASSERT_FALSE(built);
+    ASSERT_EQ(built.error().items().size(), 1U) << built.error().text();
+    EXPECT_EQ(built.error().items().front().code, Code("P053"));
+    EXPECT_NE(built.error().text().find("'all'"), std::string::npos) << built.error().text();
+    EXPECT_EQ(built.error().items().front().line, 18U) << "where the list is named";
+}
+
 TEST_F(GraphTest, RasterPassesGetTheirBindGroups) {
-    // A raster pass that samples: the callback asks for the group of its pipeline's layout.
+    // A raster pass that samples: its class asks for the group of its pipeline's layout.
     const std::string text = edited(shadowTree, "\"kind\": \"fullscreen\", \"shader\": \"shadowed.frag\"",
                                     "\"kind\": \"raster\", \"view\": \"lights\", \"drawList\": \"all\"");
     const std::string cleared =
@@ -265,8 +274,8 @@ TEST_F(GraphTest, RasterPassesGetTheirBindGroups) {
     Graph made = graph();
     mustBuild(made, cleared, {.extent = {4, 4, 1}});
     std::string missing;
-    auto encoder = gpu.device.createCommandEncoder("frame");
-    pelage::test::succeed(made.record(encoder, {}, [&](RasterContext& context) -> Result<void> {
+    draws = [&](PassContext& context) -> Result<void> {
+        EXPECT_EQ(context.pass.passClass, drawListClass);
         if (context.pass.name != "Light") return drawTriangle(context);
         rhi::RenderPipelineDescriptor descriptor{.label = "light",
                                                  .vertex = {.module = value(shader("fullscreen.vert"))}};
@@ -276,17 +285,17 @@ TEST_F(GraphTest, RasterPassesGetTheirBindGroups) {
         const auto group = context.bindGroup(pipeline.bindGroupLayout(1));
         if (!group) return tl::unexpected(group.error());
         EXPECT_EQ(*group, *context.bindGroup(pipeline.bindGroupLayout(1))) << "made once";
-        context.encoder.setPipeline(pipeline);
-        context.encoder.setBindGroup(1, *group);
-        context.encoder.draw(3);
+        context.raster->setPipeline(pipeline);
+        context.raster->setBindGroup(1, *group);
+        context.raster->draw(3);
         // A layout that asks for what the pass has not.
         descriptor.fragment->module = value(shader("tint.frag"));
         const auto other = value(gpu.device.createRenderPipeline(descriptor));
         const auto refused = context.bindGroup(other.bindGroupLayout(1));
         if (!refused) missing = refused.error().first().text;
         return {};
-    }));
-    run(encoder);
+    };
+    frame(made);
     EXPECT_EQ(read<Pixel>(made.exported("Lit"))[0], (Pixel{255, 0, 0, 255}));
     EXPECT_NE(missing.find("P074"), std::string::npos) << missing;
     EXPECT_NE(missing.find("u_source"), std::string::npos) << missing;

@@ -215,7 +215,8 @@ TEST(Plan, WhoIsReadByTheNextFrameIsNotCulled) {
                   R"("attachments": { "Shown": { "format": "RGBA8Unorm", "size": { "frame": 1 } },)");
     text = edited(text, R"("Color": { "from": "Blend.color" })", R"("Color": { "from": "Show.color" })");
     const Plan made = plan(text, moreHost());
-    EXPECT_EQ(passNames(made), (Names{"Show", "Count", "Move", "Keep", "Draw", "Blend"})) << "and need not be first";
+    EXPECT_EQ(passNames(made), (Names{"Show", "Count", "Move", "Keep", "Fill", "Half", "Shade", "Draw", "Blend"}))
+        << "and need not be first";
     const PlanResource* last = resource(made, "history.Accum");
     const PlanResource* accum = resource(made, "att.Accum");
     ASSERT_TRUE(last && accum);
@@ -266,14 +267,18 @@ TEST(Plan, AToolMayTrustClassesItDoesNotKnow) {
     lent.classes.clear();
     const auto tree = PassTree::parse(moreGrammar(), "tree.pass.json");
     ASSERT_TRUE(tree) << tree.error().text();
-    EXPECT_EQ((*tree)->passClasses(), Names{"Blend"});
-    EXPECT_EQ(codes((*tree)->compile(lent).error()), "P053");
+    EXPECT_EQ((*tree)->passClasses(), (Names{"Shade", "Blend"}));
+    EXPECT_EQ(codes((*tree)->compile(lent).error()), "P053 P053");
     lent.trustClasses = true;
     const Plan made = plan(moreGrammar(), lent);
     const auto found = std::find_if(made.passes.begin(), made.passes.end(),
                                     [](const PlanPass& pass) { return pass.passClass == "Blend"; });
     ASSERT_NE(found, made.passes.end());
     EXPECT_EQ(found->kind, PassKind::Raster) << "it has a color slot";
+    const auto shade = std::find_if(made.passes.begin(), made.passes.end(),
+                                    [](const PlanPass& pass) { return pass.passClass == "Shade"; });
+    ASSERT_NE(shade, made.passes.end());
+    EXPECT_EQ(shade->kind, PassKind::Compute) << "it has none";
 }
 
 TEST(Plan, VersionsNameWhoMadeWhat) {
@@ -328,6 +333,70 @@ TEST(Plan, DotNamesEveryPassAndImage) {
     for (const PlanResource& image : made.resources) EXPECT_NE(dot.find(image.name), std::string::npos) << dot;
     EXPECT_NE(dot.find("Present: switched off"), std::string::npos) << dot;
     EXPECT_EQ(std::count(dot.begin(), dot.end(), '{'), std::count(dot.begin(), dot.end(), '}'));
+}
+
+TEST(Plan, A3DImageHasDepthAndLevels) {
+    const Plan made = plan(moreGrammar(), moreHost());
+    const PlanResource* grid = resource(made, "att.Grid");
+    ASSERT_NE(grid, nullptr);
+    EXPECT_TRUE(grid->is3D);
+    EXPECT_EQ(grid->extent, (rhi::Extent3D{8, 8, 8}));
+    EXPECT_EQ(grid->layers, 1U);
+    EXPECT_EQ(grid->mipLevels, 4U) << "8, 4, 2, 1";
+    EXPECT_EQ(grid->bytes, 4U * (512 + 64 + 8 + 1));
+    const PlanResource* lit = resource(made, "att.Lit");
+    ASSERT_NE(lit, nullptr);
+    EXPECT_TRUE(lit->is3D) << "as what its size follows";
+    EXPECT_EQ(lit->extent, (rhi::Extent3D{4, 4, 4}));
+    EXPECT_EQ(lit->mipLevels, 2U);
+    for (const PlanPass& pass : made.passes) {
+        const std::uint32_t groups = pass.name == "Fill" ? 2 : pass.name == "Half" ? 1 : 0;
+        if (groups > 0) {
+            EXPECT_EQ(std::vector(pass.dispatch, pass.dispatch + 3), std::vector(3, groups)) << pass.name;
+        } else if (pass.name == "Move") {
+            EXPECT_EQ(pass.indirectOffset, 4U);
+        } else if (pass.name == "Shade") {
+            EXPECT_EQ(pass.constants.at("steps"), 16);
+            EXPECT_EQ(pass.drawList, "hair.forward");
+        } else if (pass.name == "Draw") {
+            EXPECT_EQ(pass.passClass, drawListClass);
+        }
+    }
+    EXPECT_EQ(resource(plan(), "att.Map")->is3D, false) << "layers are no depth";
+}
+
+TEST(Plan, APassReadsOneLevelAndWritesAnother) {
+    const Plan made = plan(moreGrammar(), moreHost());
+    const PlanSlot *fine = slot(made, "Half", "fine"), *coarse = slot(made, "Half", "coarse");
+    EXPECT_EQ(fine->resource, coarse->resource);
+    EXPECT_EQ(fine->level, 0U);
+    EXPECT_EQ(fine->reads, 1U);
+    EXPECT_EQ(coarse->level, 1U);
+    EXPECT_EQ(coarse->makes, 2U);
+    EXPECT_EQ(coarse->load, rhi::LoadOp::DontCare) << "the level begins here";
+    EXPECT_EQ(slot(made, "Fill", "grid")->level, 0U) << "storage has one level: the first";
+    EXPECT_EQ(slot(made, "Shade", "grid")->level, 1U);
+    EXPECT_EQ(slot(made, "Move", "points")->level, ~0U);
+}
+
+TEST(Plan, ALevelThatIsThereIsLoaded) {
+    std::string text = edited(moreGrammar(), R"("bind": "u_grid", "level": 1 },)",
+                              R"("bind": "u_grid", "level": 0 },
+        "more": { "access": "readWrite", "as": "storage", "bind": "i_more", "level": 1 },)");
+    text = edited(text, R"("connect": { "grid": "Half.coarse",)",
+                  R"("connect": { "more": "Half.coarse", "grid": "Half.coarse",)");
+    const Plan made = plan(text, moreHost());
+    EXPECT_EQ(slot(made, "Shade", "more")->load, rhi::LoadOp::Load);
+    EXPECT_EQ(slot(made, "Shade", "more")->reads, 2U);
+}
+
+TEST(Plan, WhatAHostAllowsOf3DImages) {
+    HostDescription lent = moreHost();
+    lent.maxSide3D = 7;
+    const auto tree = PassTree::parse(moreGrammar(), "tree.pass.json");
+    EXPECT_EQ(codes((*tree)->compile(lent).error()), "D002");
+    lent.maxSide3D = 8;
+    EXPECT_TRUE((*tree)->compile(lent));
 }
 
 }  // namespace

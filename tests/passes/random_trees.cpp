@@ -40,17 +40,18 @@ private:
     struct Result {
         std::string pass, slot, image;
         bool changed = false;
+        int level = -1;  // of an image with several: the one this pass has written
     };
 
     std::uint32_t below(std::uint32_t limit) {
         return std::uniform_int_distribution<std::uint32_t>(0, limit - 1)(random_);
     }
 
-    std::string attachment(bool history) {
+    std::string attachment(bool history, bool pyramid = false) {
         const std::string name = "A" + std::to_string(images_++);
         attachments_ += (attachments_.empty() ? "\"" : ", \"") + name +
                         R"(": { "format": "RGBA8Unorm", "size": { "frame": 1 })" +
-                        (history ? R"(, "history": 1 })" : " }");
+                        (pyramid ? R"(, "mipLevels": "full")" : "") + (history ? R"(, "history": 1 })" : " }");
         if (history) histories_.push_back(name);
         return name;
     }
@@ -79,20 +80,30 @@ private:
             const std::string clear = R"(, "clear": [0.5, 0, 0, )" + std::to_string(index) + "]";
             Result* before = results_.empty() ? nullptr : &results_[below(static_cast<std::uint32_t>(results_.size()))];
             // A result that comes from elsewhere when its pass is off cannot be told apart by its name alone.
-            if (before && below(3) == 0 && !before->changed && kind != 1 && use(before->image)) {
+            // A level that is made from the one before it is a target of another size: it stands alone.
+            const bool step = before && before->level >= 0 && before->level < 4;
+            if (before && below(3) == 0 && !before->changed && kind != 1 && (!step || i == 0) && use(before->image)) {
                 before->changed = true;
-                const std::string own = attachment(false);
+                const std::string own = attachment(false, step), from = before->pass + "." + before->slot;
                 use(own);
-                slot(slots, connect, out, R"("access": "readWrite", )" + as + clear,
-                     "[\"" + before->pass + "." + before->slot + "\", \"att." + own + "\"]");
-                made.push_back({name, out, before->image});
-                continue;
+                const int level = step ? before->level + 1 : before->level;
+                const std::string says = level < 0 ? "" : R"(, "level": )" + std::to_string(level);
+                slot(slots, connect, out, R"("access": "readWrite", )" + as + clear + says,
+                     "[\"" + from + "\", \"att." + own + "\"]");
+                made.push_back({name, out, before->image, false, level});
+                if (!step) continue;
+                slot(slots, connect, "below",
+                     R"("access": "read", "as": "sampled", "bind": "below", "optional": true, "level": )" +
+                         std::to_string(before->level),
+                     "\"" + from + "\"");
+                break;
             }
-            const std::string image = attachment(below(5) == 0);
+            const bool pyramid = below(3) == 0;
+            const std::string image = attachment(!pyramid && below(5) == 0, pyramid);
             use(image);
             const std::string begins = kind == 0 ? clear : "";  // fullscreen and compute cover what they write
             slot(slots, connect, out, R"("access": "write", )" + as + begins, "\"att." + image + "\"");
-            made.push_back({name, out, image});
+            made.push_back({name, out, image, false, pyramid ? 0 : -1});
         }
         for (std::uint32_t i = 0; i < below(4); ++i) {
             const std::string in = "in" + std::to_string(i);
@@ -110,7 +121,10 @@ private:
             const Result& b = results_[below(static_cast<std::uint32_t>(results_.size()))];
             if (!use(a.image) || !use(b.image)) continue;
             const std::string first = "\"" + a.pass + "." + a.slot + "\"";
-            if (below(3) == 0) {
+            // Another image of a list may not have that level.
+            if (a.level >= 0) {
+                slot(slots, connect, in, says + R"(, "optional": true, "level": )" + std::to_string(a.level), first);
+            } else if (b.level >= 0 || below(3) == 0) {
                 slot(slots, connect, in, says + R"(, "optional": true)", first);
             } else {
                 slot(slots, connect, in, says, "[" + first + ", \"" + b.pass + "." + b.slot + "\", \"const.white\"]");

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "tree_text.hpp"
 
+#include <gtest/gtest.h>
 #include <fstream>
 #include <iterator>
-#include <gtest/gtest.h>
 
 namespace pelage::passes::test {
 
@@ -63,7 +63,7 @@ std::string wholeGrammar() {
       "connect": { "table": "att.Table" }
     },
     {
-      "name": "Hair", "kind": "raster", "view": "main", "drawList": "hair.forward", "sort": "backToFront",
+      "name": "Hair", "kind": "raster", "view": "main", "drawList": "hair.forward",
       "slots": {
         "map":    { "access": "read", "as": "sampled", "bind": "u_map" },
         "sky":    { "access": "read", "as": "sampled", "bind": "u_sky", "optional": true },
@@ -124,6 +124,7 @@ std::string moreGrammar() {
   "settings": {
     "strands": { "type": "uint", "default": 100, "min": 1, "max": 1000000 },
     "style":   { "type": "enum", "values": ["soft", "hard"], "default": "hard" },
+    "cells":   { "type": "uint", "default": 8, "min": 4, "max": 64 },
     "glow":    { "type": "bool", "default": true }
   },
   "imports": { "Shape": { "kind": "buffer", "access": "read" } },
@@ -132,6 +133,8 @@ std::string moreGrammar() {
   "attachments": {
     "Points": { "kind": "buffer", "bytes": { "setting": "strands", "times": 16 }, "history": 1 },
     "Args":   { "kind": "buffer", "bytes": 12 },
+    "Grid":   { "format": "R32Float", "size": { "square": { "setting": "cells" }, "depth": { "setting": "cells" } }, "mipLevels": "full" },
+    "Lit":    { "format": "RGBA16Float", "size": { "like": "att.Grid", "scale": 0.5 }, "mipLevels": 2 },
     "Heads":  { "kind": "buffer", "bytes": { "perPixel": 4, "like": "att.Drawn" } },
     "Copied": { "kind": "buffer", "bytes": { "setting": "strands", "times": 16 } },
     "Accum":  { "format": "RGBA16Float", "size": { "frame": 1 }, "history": 1 },
@@ -147,7 +150,7 @@ std::string moreGrammar() {
       "connect": { "shape": "host.Shape", "args": "att.Args" }
     },
     {
-      "name": "Move", "kind": "compute", "shader": "move.comp", "dispatchIndirect": "args",
+      "name": "Move", "kind": "compute", "shader": "move.comp", "dispatchIndirect": { "slot": "args", "offset": 4 },
       "slots": {
         "args":   { "access": "read", "as": "indirect" },
         "before": { "access": "read", "as": "storage", "bind": "b_before" },
@@ -156,13 +159,33 @@ std::string moreGrammar() {
       "connect": { "args": "Count.args", "before": "history.Points", "points": "att.Points" }
     },
     {
+      "name": "Fill", "kind": "compute", "shader": "fill.comp", "dispatchLike": "grid", "threads": [4, 4, 4],
+      "slots": { "points": { "access": "read", "as": "storage", "bind": "b_points" },
+                 "grid": { "access": "write", "as": "storage", "bind": "i_grid" } },
+      "connect": { "points": "Move.points", "grid": "att.Grid" }
+    },
+    {
+      "name": "Half", "kind": "compute", "shader": "half.comp", "dispatchLike": "coarse", "threads": [4, 4, 4],
+      "slots": { "fine": { "access": "read", "as": "sampled", "bind": "u_fine", "level": 0 },
+                 "coarse": { "access": "readWrite", "as": "storage", "bind": "i_coarse", "level": 1 } },
+      "connect": { "fine": "Fill.grid", "coarse": "Fill.grid" }
+    },
+    {
+      "name": "Shade", "class": "Shade", "drawList": "hair.forward",
+      "slots": { "grid": { "access": "read", "as": "sampled", "bind": "u_grid", "level": 1 },
+                 "lit": { "access": "write", "as": "storage", "bind": "i_lit" } },
+      "connect": { "grid": "Half.coarse", "lit": "att.Lit" },
+      "constants": { "steps": 16 }
+    },
+    {
       "name": "Draw", "kind": "raster", "view": "main", "drawList": "hair.forward",
       "slots": {
         "points": { "access": "read", "as": "vertex" },
         "heads":  { "access": "readWrite", "as": "storage", "bind": "b_heads", "clear": 0 },
+        "lit":    { "access": "read", "as": "sampled", "bind": "u_lit", "level": 0 },
         "color":  { "access": "write", "as": "color", "clear": [0, 0, 0, 0] }
       },
-      "connect": { "points": "Move.points", "heads": "att.Heads", "color": "att.Drawn" }
+      "connect": { "points": "Move.points", "heads": "att.Heads", "lit": "Shade.lit", "color": "att.Drawn" }
     },
     {
       "name": "Blend", "class": "Blend",
@@ -196,6 +219,7 @@ HostDescription moreHost() {
                                            {.name = "style", .type = Type::Word, .words = {"soft", "hard"}},
                                            {.name = "glow", .type = Type::Bool},
                                            {.name = "gain", .min = 1, .max = 4, .defaultNumber = 2}}});
+    made.classes.push_back({.name = "Shade", .kind = PassKind::Compute});
     return made;
 }
 

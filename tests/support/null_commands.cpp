@@ -317,7 +317,7 @@ std::vector<Touch> F::bindings(const NullDriver::Commands& c, VkPipelineBindPoin
     return touches;
 }
 
-void F::drawn(NullDriver::Commands& c, const char* word, std::vector<Touch> more) {
+void F::drawn(NullDriver::Commands& c, const char* word, std::initializer_list<Touch> more) {
     if (!c.driver->keepCommands) return;
     auto touches = bindings(c, VK_PIPELINE_BIND_POINT_GRAPHICS);
     for (const auto slot : c.driver->vertexBindings_[c.pipelines[VK_PIPELINE_BIND_POINT_GRAPHICS]])
@@ -353,6 +353,7 @@ void F::vkCmdDispatch(VkCommandBuffer commands, std::uint32_t, std::uint32_t, st
     of(commands).add("dispatch", bindings(of(commands), VK_PIPELINE_BIND_POINT_COMPUTE));
 }
 void F::vkCmdDispatchIndirect(VkCommandBuffer commands, VkBuffer buffer, VkDeviceSize) {
+    if (!of(commands).driver->keepCommands) return;
     auto touches = bindings(of(commands), VK_PIPELINE_BIND_POINT_COMPUTE);
     touches.push_back(arguments(buffer));
     of(commands).add("dispatchIndirect", std::move(touches));

@@ -23,8 +23,9 @@
     F(vkDestroyDevice)                                                                                                 \
     F(vkGetDeviceQueue)                                                                                                \
     F(vkDeviceWaitIdle)                                                                                                \
-    F(vkQueueWaitIdle) F(vkQueueSubmit2) F(vkAllocateMemory) F(vkFreeMemory) F(vkMapMemory) F(vkCreateBuffer) F(       \
-        vkDestroyBuffer) F(vkGetBufferMemoryRequirements2) F(vkBindBufferMemory2) F(vkCreateImage) F(vkDestroyImage)   \
+    F(vkQueueWaitIdle)                                                                                                 \
+    F(vkQueueSubmit2) F(vkAllocateMemory) F(vkFreeMemory) F(vkMapMemory) F(vkCreateBuffer) F(vkDestroyBuffer) F(       \
+        vkGetBufferMemoryRequirements2) F(vkBindBufferMemory2) F(vkCreateImage) F(vkDestroyImage)                      \
         F(vkGetDeviceImageMemoryRequirements) F(vkBindImageMemory2) F(vkCreateImageView) F(vkDestroyImageView) F(      \
             vkCreateSampler) F(vkDestroySampler) F(vkCreateShaderModule) F(vkDestroyShaderModule)                      \
             F(vkCreateDescriptorSetLayout) F(vkDestroyDescriptorSetLayout) F(vkCreateDescriptorPool) F(                \
@@ -60,7 +61,7 @@ struct NullDriver::Functions {
     static void addPipeline(NullDriver& d, std::uint64_t pipeline, const VkPipelineShaderStageCreateInfo& stage);
     /// What the bound sets let a pipeline touch.
     static std::vector<Touch> bindings(const Commands& c, VkPipelineBindPoint point);
-    static void drawn(Commands& c, const char* word, std::vector<Touch> more);
+    static void drawn(Commands& c, const char* word, std::initializer_list<Touch> more);
 
     static VKAPI_ATTR VkResult VKAPI_CALL vkEnumerateInstanceVersion(std::uint32_t*);
     static VKAPI_ATTR VkResult VKAPI_CALL vkEnumerateInstanceLayerProperties(std::uint32_t*, VkLayerProperties*);

@@ -3,6 +3,7 @@
 // of.
 #pragma once
 
+#include <pelage/hair/material_pass.hpp>
 #include <pelage/hair/scene.hpp>
 #include <pelage/passes/graph.hpp>
 #include <pelage/rhi/rhi.hpp>
@@ -34,6 +35,8 @@ struct FrameSettings {
     /// What the host lends to the tree's imports of these names; hair_host takes "SceneColor" and "SceneDepth". They
     /// may be other textures each frame; another size or format compiles the tree again.
     std::map<std::string, rhi::Texture> imports = {};
+    /// The same for the tree's imports that are buffers.
+    std::map<std::string, rhi::Buffer> buffers = {};
 };
 
 struct AttachmentReport {
@@ -86,10 +89,13 @@ public:
         /// Shaders of the host's own; asked before the built-in ones, which may so be replaced. hair/shaders/*.glsl has
         /// the declarations of the sets that the renderer binds.
         ShaderCode shaders = {};
-        /// Pass classes of the host's own, for trees that name them.
+        /// Pass classes of the host's own, for trees that name them. One called passes::drawListClass draws the lists
+        /// instead of the renderer.
         passes::PassClassRegistry classes = {};
-        /// Called with a pipeline's key before it is made, on the thread that makes it: for progress and for tests.
-        std::function<void(std::uint64_t key)> beforePipeline = {};
+        /// Pass classes that dispatch the materials' compute shaders.
+        std::vector<MaterialPass> materialPasses = {};
+        /// Called with a pipeline's label before it is made, on the thread that makes it: for progress and for tests.
+        std::function<void(const std::string& label)> beforePipeline = {};
     };
     static Result<Renderer> create(Descriptor descriptor);
 
@@ -101,6 +107,9 @@ public:
     Result<void> encode(Scene& scene, const FrameSettings& settings, rhi::CommandEncoder& encoder);
     rhi::Texture displayTexture() const;  // empty when the tree exports no "LdrColor"
     rhi::Texture colorTexture() const;    // "HdrColor"
+    /// Any export of the tree by its name, as Graph::exported(): empty when there is none of that kind.
+    rhi::Texture exported(const std::string& name) const;
+    rhi::Buffer exportedBuffer(const std::string& name) const;
 
     /// encode(), submit, wait and read back.
     Result<Picture> render(Scene& scene, const FrameSettings& settings);

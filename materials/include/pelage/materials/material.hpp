@@ -45,20 +45,27 @@ struct Option {
     std::int64_t min = 0, max = 1;  // Int
 };
 
+/// A shader of a material: of raster passes (`vertex`, perhaps `fragment`), or a compute shader, which a pass class
+/// dispatches for the objects that have the material.
 struct ShaderUse {
     std::string name = {};                   // "forward"
-    std::string drawList = {};               // joins the material to the raster passes with the same draw list
+    std::string drawList = {};               // joins the material to the passes with the same draw list
     std::string vertex = {}, fragment = {};  // shader files; `fragment` may be empty (depth only)
+    std::string compute = {};                // the file of a compute shader; the two others are empty then
     std::vector<std::string> options = {};   // those it reads (the file may say "*")
-    RenderState state = {};
+    RenderState state = {};                  // of a raster shader
     bool enabledByDefault = true;
+
+    bool isCompute() const { return !compute.empty(); }
+    /// The files that are not empty.
+    std::vector<std::string> files() const;
+    bool operator==(const ShaderUse&) const = default;
 };
 
-struct Conversion;  // src/convert.hpp
 
 class MaterialType {
 public:
-    /// Reads and links a type. `registry` must outlive nothing: what is needed is copied.
+    /// Reads and links a type. The type keeps copies of the functors it names; the registry may go.
     static Result<std::shared_ptr<const MaterialType>> parse(std::string_view text, const std::string& file,
                                                               const FunctorRegistry& registry);
     static Result<std::shared_ptr<const MaterialType>> load(const std::string& path, const FunctorRegistry& registry);
@@ -90,20 +97,20 @@ struct CompiledMaterial {
     struct InputValue {
         std::string name = {};
         Value value = {};
+        bool operator==(const InputValue&) const = default;
     };
     struct Shader {
         ShaderUse use = {};
         bool enabled = true;
         RenderState state = {};
         std::vector<rhi::ConstantEntry> constants = {};  // the options this shader reads, as specialization constants
+        bool operator==(const Shader&) const = default;
     };
     std::vector<InputValue> inputs = {};    // numbers and colours
     std::vector<InputValue> textures = {};  // Texture2D, TextureCube
     std::vector<rhi::ConstantEntry> options = {};
     std::vector<Shader> shaders = {};
-    std::uint64_t inputsVersion = 0;    // grows when an input or texture changed
-    std::uint64_t pipelineVersion = 0;  // grows when an option, a state or an enable flag changed
-    std::uint64_t functorRuns = 0;      // since the material was made
+    std::uint64_t functorRuns = 0;  // since the material was made
 };
 
 class Material {

@@ -1,34 +1,16 @@
 // SPDX-License-Identifier: MIT
 // Runs a plan on a device: owns the transient attachments and the pipelines of fullscreen and compute passes, binds
-// slots to shader resources by name, and calls the host for the draws of raster passes.
+// slots to shader resources by name, and calls the classes that the host registered for all other passes.
 #pragma once
 
 #include <pelage/passes/pass_class.hpp>
 
-#include <functional>
 #include <string>
 
 namespace pelage::passes {
 
 /// What a pass draws into; a host can make its pipelines for it before the first frame.
 Targets targetsOf(const Plan& plan, const PlanPass& pass);
-
-/// Given to the host when a raster pass wants its draws.
-struct RasterContext {
-    const PlanPass& pass;
-    std::uint32_t viewIndex = 0;  // layer, for passes with forEachView
-    rhi::Extent3D extent = {};
-    const Targets& targets;
-    rhi::RenderPassEncoder& encoder;
-    /// The bind group of set 1 for a pipeline's layout of that set: slots matched by shader resource name, samplers by
-    /// their names ("s_linear", "s_nearest", "s_shadow", "s_linearRepeat"). Cached. An error names what no slot
-    /// provides.
-    std::function<Result<rhi::BindGroup>(const rhi::BindGroupLayout&)> bindGroup;
-    /// The buffer of a slot (vertex, indirect, storage); empty when it is not connected or is no buffer.
-    std::function<rhi::Buffer(std::string_view slot)> buffer;
-    std::uint32_t draws = 0;  // the host adds what it draws; for PassReport
-};
-using DrawCallback = std::function<Result<void>(RasterContext&)>;
 
 struct FrameImports {
     std::map<std::string, rhi::Texture> textures = {};
@@ -48,8 +30,9 @@ public:
     struct Descriptor {
         rhi::Device device = {};
         ShaderSource shaders = {};
-        bool measure = true;             // timestamps and statistics per pass
-        PassClassRegistry classes = {};  // that trees may name
+        bool measure = true;  // timestamps and statistics per pass
+        /// That trees may name. A tree with draw lists needs one called `drawListClass`.
+        PassClassRegistry classes = {};
         /// For finding faults: paints each image of the heap that can be a target before it begins in a frame (not a
         /// number, or magenta), so that what a pass leaves unwritten shows. Costs a render pass for each layer.
         bool poison = false;
@@ -70,10 +53,9 @@ public:
     /// How many plans were made by builds that worked.
     std::uint64_t plansMade() const { return plansMade_; }
 
-    /// Records every pass of the plan. `draws` is called once per raster pass (and layer). An import that is not as the
-    /// plan expects (absent H001; format, size, layers or samples H002) is an error before anything is recorded: build
-    /// again with what is lent now.
-    Result<void> record(rhi::CommandEncoder& encoder, const FrameImports& imports, const DrawCallback& draws);
+    /// Records every pass of the plan. An import that is not as the plan expects (absent H001; format, size, layers or
+    /// samples H002) is an error before anything is recorded: build again with what is lent now.
+    Result<void> record(rhi::CommandEncoder& encoder, const FrameImports& imports = {});
     /// The texture behind an export; valid after record(), with its contents until the next one. An export of a buffer
     /// is in exportedBuffer().
     rhi::Texture exported(const std::string& name) const;
@@ -83,10 +65,8 @@ public:
     /// From the first begin to the last end timestamp of that frame.
     double frameMilliseconds() const;
 
-    struct State;
-
 private:
-    std::shared_ptr<State> state_;
+    std::shared_ptr<GraphState> state_;
     Descriptor descriptor_;
     std::uint64_t plansMade_ = 0;
     bool stale_ = false;

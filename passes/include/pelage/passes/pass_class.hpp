@@ -6,7 +6,8 @@
 //         "depth": { "access": "read", "as": "sampled", "bind": "u_depth" },
 //         "color": { "access": "readWrite", "as": "color" } },
 //       "connect": { "depth": "Depth.depth", "color": "Resolve.color" },
-//       "parameters": { "width": 2, "style": "soft" } }
+//       "parameters": { "width": 2, "style": "soft" },
+//       "constants": { "kernel": 3 } }
 //
 // and the host registers it in the registry that it gives to Graph::Descriptor::classes:
 //
@@ -17,7 +18,7 @@
 //                                          {.name = "style", .type = passes::ParameterInfo::Type::Word,
 //                                           .words = {"hard", "soft"}}}},
 //                  .create = [](const passes::PassSetup& setup) -> Result<passes::PassRecorder> {
-//                      auto pipeline = setup.device.createRenderPipeline(… setup.targets …);
+//                      auto pipeline = setup.device.createRenderPipeline(… setup.stage(module) … setup.targets …);
 //                      if (!pipeline) return tl::unexpected(pipeline.error());
 //                      return passes::PassRecorder([pipeline = *pipeline](passes::PassContext& context) {
 //                          auto group = context.bindGroup(pipeline.bindGroupLayout(1));
@@ -33,13 +34,16 @@
 // touches must be a slot; a resource that it brings itself (a pipeline, a vertex buffer) is its own to keep.
 // Faults of a file are found when it is compiled: an unknown class (P053, with the nearest name), a parameter that the
 // class does not have or that it needs (P054), a value outside its range (P055), a slot that such a pass cannot have
-// (P023). What create() refuses is S004 at the class's place, and the last good plan stays.
+// (P023). A constant that none of the class's shaders has is S020, with the nearest name. What create() refuses is S004 at the class's place, and the last good plan stays.
 #pragma once
 
 #include <pelage/passes/tree.hpp>
 #include <pelage/rhi/rhi.hpp>
 
 #include <functional>
+#include <map>
+#include <string>
+#include <vector>
 
 namespace pelage::passes {
 
@@ -78,10 +82,28 @@ struct PassSetup {
     const Targets& targets;  // of a Raster class; empty for the others
     PassParameters parameters;
     const ShaderSource& shaders;  // the graph's
+
+    /// The stage of a pipeline of this pass: the module with those of its specialization constants that the file gives a
+    /// value ("constants": {"samples": 4}), else what the images say of themselves (<bind>_samples, <bind>_present).
+    /// A constant of the file that is in no stage asked for here is an error of the build (S020).
+    rhi::ProgrammableStage stage(const rhi::ShaderModule& module) const;
+    /// All constants of the file, for a class that makes its pipelines later: none of them is an error then.
+    const std::map<std::string, double>& constants() const;
+
+    struct Asked {
+        bool all = false;                          // constants() was called
+        std::vector<std::string> names = {};       // constants of the modules that stage() was given
+    };
+    Asked& asked;
 };
 
+struct GraphState;
+
 /// Given to the recorder, for each frame (and for each layer of a pass with "forEachView"); valid during the call.
-struct PassContext {
+class PassContext {
+public:
+    PassContext(GraphState& state, std::size_t index);
+
     const PlanPass& pass;
     PassParameters parameters;
     const Targets& targets;
@@ -91,13 +113,18 @@ struct PassContext {
     rhi::RenderPassEncoder* raster = nullptr;
     rhi::ComputePassEncoder* compute = nullptr;
     rhi::CommandEncoder* copy = nullptr;
+    std::uint32_t draws = 0;  // the recorder adds what it draws or dispatches; for PassReport
+
     /// The bind group of set 1 for a pipeline's layout of that set: slots by their "bind", samplers by their names
     /// (s_linear, s_nearest, s_linearRepeat, s_shadow). Cached. An error names what no slot provides.
-    std::function<Result<rhi::BindGroup>(const rhi::BindGroupLayout&)> bindGroup = {};
+    Result<rhi::BindGroup> bindGroup(const rhi::BindGroupLayout& layout) const;
     /// The image or buffer of a slot; an empty handle when the slot is not connected or is of the other kind.
-    std::function<rhi::Texture(std::string_view slot)> texture = {};
-    std::function<rhi::Buffer(std::string_view slot)> buffer = {};
-    std::uint32_t draws = 0;  // the recorder adds what it draws or dispatches; for PassReport
+    rhi::Texture texture(std::string_view slot) const;
+    rhi::Buffer buffer(std::string_view slot) const;
+
+private:
+    GraphState& state_;
+    std::size_t index_;
 };
 
 /// Records one pass. An error ends the frame: Graph::record gives it back.

@@ -40,17 +40,17 @@ struct SettingInfo {
     SettingValue defaultValue = {};
 };
 
-/// What the host lends: an image (external, with its own size and format) or a buffer.
-struct ImportDescription {
+/// What the host lends to an import: an image with its own size and format, or a buffer.
+struct LentImport {
     bool present = false;
     rhi::TextureFormat format = rhi::TextureFormat::Undefined;
     rhi::Extent3D extent = {};
     std::uint32_t samples = 1;
-    bool operator==(const ImportDescription&) const = default;
+    bool operator==(const LentImport&) const = default;
 };
 
-/// What a tree asks a host to lend.
-struct ImportInfo {
+/// What a tree wants a host to lend to an import.
+struct WantedImport {
     std::string name = {};
     bool buffer = false, cube = false, optional = false;
     std::vector<rhi::TextureFormat> formats = {};  // that the tree accepts; empty: any
@@ -76,6 +76,10 @@ struct PassClassInfo {
     std::vector<ParameterInfo> parameters = {};
 };
 
+/// The class that records raster passes: `"kind": "raster", "drawList": "forward"` in a file. Whoever draws registers
+/// it as any other class; PlanPass::drawList and ::view tell one pass from another.
+inline constexpr std::string_view drawListClass = "DrawList";
+
 struct PlanResource;
 
 /// Bytes that an image takes in a heap, and what its offset must be a multiple of.
@@ -86,17 +90,17 @@ struct MemoryNeed {
 struct HostDescription {
     rhi::Extent3D extent = {};  // of the frame; "frame" in size references
     DepthConvention depth = DepthConvention::Reversed;
-    std::map<std::string, SettingValue> settings = {};      // those that differ from the defaults
-    std::map<std::string, ImportDescription> imports = {};  // by name
+    std::map<std::string, SettingValue> settings = {};  // those that differ from the defaults
+    std::map<std::string, LentImport> imports = {};     // by name
     /// Exports that this host never looks at: as if the file did not have them, so that what only they need is culled
     /// (without a warning) and their images give their memory back early. A name the tree lacks is a warning (H005).
     std::vector<std::string> unwantedExports = {};
     /// Whether the device can make such an image; decides between "format" and "formatFallbacks". Empty: it can.
     /// Graph::build fills it in.
     std::function<bool(rhi::TextureFormat, rhi::TextureUsage, std::uint32_t samples)> supports = {};
-    /// What the device allows of an image's sides and layers, and of the bytes of a buffer or of the heap; more is
-    /// D002. Graph::build lowers the first two to what its device allows.
-    std::uint32_t maxSide = 32768, maxLayers = 256;
+    /// What the device allows of the sides of an image (2D, 3D), of its layers, and of the bytes of a buffer or of the
+    /// heap; more is D002. Graph::build lowers maxSide and maxLayers to what its device allows.
+    std::uint32_t maxSide = 32768, maxSide3D = 2048, maxLayers = 256;
     std::uint64_t maxBytes = 1ULL << 40;
     /// What a transient image takes in a heap. Empty: its texels' bytes, rounded up to 64 KiB. Graph::build fills it
     /// in.
@@ -131,7 +135,7 @@ public:
     const std::vector<SettingInfo>& settings() const;
     std::vector<std::string> drawLists() const;
     std::vector<std::string> exports() const;
-    std::vector<ImportInfo> imports() const;
+    std::vector<WantedImport> imports() const;
     std::vector<std::string> passClasses() const;  // those that its passes name
     const Diagnostics& warnings() const;
 
@@ -148,15 +152,19 @@ private:
 
 constexpr std::uint64_t notPlaced = ~0ULL;
 
+/// The size of a mip level: each side halved and rounded down, at least 1. The third number of a 2D image, its layers,
+/// stays.
+rhi::Extent3D levelExtent(const rhi::Extent3D& extent, bool is3D, std::uint32_t level);
+
 /// An image or buffer that the plan creates or that the host lends.
 struct PlanResource {
     std::string name = {};  // "att.HairDepth", "history.Color", "host.SceneColor", "const.depthFarArray"
     /// History: what `partner` was at the end of the last frame.
     enum class Kind : std::uint8_t { Transient, History, Import, Constant } kind = Kind::Transient;
     rhi::TextureFormat format = rhi::TextureFormat::Undefined;
-    rhi::Extent3D extent = {};
-    std::uint32_t samples = 1, layers = 1;
-    bool cube = false, isBuffer = false;
+    rhi::Extent3D extent = {};  // of the first mip level; the third number is the depth of a 3D image, else its layers
+    std::uint32_t samples = 1, layers = 1, mipLevels = 1;
+    bool cube = false, is3D = false, isBuffer = false;
     rhi::TextureUsage usage = rhi::TextureUsage::None;      // gathered from the slots
     rhi::BufferUsage bufferUsage = rhi::BufferUsage::None;  // the same, of a buffer
     std::uint64_t bytes = 0;                                // of the texels, or of the buffer
@@ -176,6 +184,7 @@ struct PlanSlot {
     SlotAccess access = SlotAccess::Read;
     SlotUse use = SlotUse::Color;
     std::uint32_t resource = ~0U;            // ~0: optional and not connected
+    std::uint32_t level = ~0U;               // the only mip level it uses; ~0: all, or a buffer
     std::uint32_t producer = ~0U;            // the pass whose result it takes, in Plan::passes; ~0: as lent or begun
     std::uint32_t reads = ~0U, makes = ~0U;  // numbers of versions of the resource; ~0: does neither
     rhi::LoadOp load = rhi::LoadOp::Load;    // of a buffer: Clear fills it with zeros
@@ -196,15 +205,15 @@ struct PlanParameter {
 
 struct PlanPass {
     std::string name = {}, drawList = {}, view = {}, shader = {};
-    std::string passClass = {};  // not empty: recorded by this class of the host
+    std::string passClass = {};  // not empty: recorded by this class of the host; drawListClass for a draw list
     PassKind kind = PassKind::Raster;
     bool forEachLayer = false;
-    enum class Sort : std::uint8_t { None, FrontToBack, BackToFront } sort = Sort::None;
     std::vector<PlanSlot> slots = {};
-    std::map<std::string, double> constants = {};  // specialization constants of a fullscreen or compute shader
+    std::map<std::string, double> constants = {};  // specialization constants of its shader, or for its class
     std::vector<PlanParameter> parameters = {};    // of a class: all that it declares, in that order
     std::uint32_t dispatch[3] = {1, 1, 1};         // Compute: workgroups
     std::uint32_t indirect = ~0U;                  // Compute: the slot whose buffer gives them instead; ~0: none
+    std::uint32_t indirectOffset = 0;              // bytes in that buffer
 };
 
 struct Plan {

@@ -60,46 +60,45 @@ bool sameStates(const materials::CompiledMaterial::Shader& a, const materials::C
 
 }  // namespace
 
-bool Look::isReady() const {
-    return std::all_of(draws.begin(), draws.end(),
-                       [](const Draw& draw) { return draw.pipeline->state() == Pipelines::Entry::State::Ready; });
+bool ObjectPipelines::isReady() const {
+    return std::all_of(uses.begin(), uses.end(),
+                       [](const Use& use) { return use.pipeline->state() == Pipelines::Entry::State::Ready; });
 }
 
-const Diagnostics* Look::failure() const {
-    for (const Draw& draw : draws) {
-        if (draw.pipeline->state() == Pipelines::Entry::State::Failed) return &draw.pipeline->error();
+const Diagnostics* ObjectPipelines::failure() const {
+    for (const Use& use : uses) {
+        if (use.pipeline->state() == Pipelines::Entry::State::Failed) return &use.pipeline->error();
     }
     return nullptr;
 }
 
-// By content, not by the material's versions: another material in the same place of the scene starts counting anew.
-bool Renderer::State::looksLike(const Look& look, const ObjectState& object,
-                                const materials::CompiledMaterial& material) const {
-    return look.shadowsOff == shadowsOff && look.environmentOff == environmentOff &&
-           look.isEmpty == object.geometry->source->indices.empty() &&
-           std::equal(look.shaders.begin(), look.shaders.end(), material.shaders.begin(), material.shaders.end(),
+bool Renderer::State::isFor(const ObjectPipelines& set, const ObjectState& object,
+                            const materials::CompiledMaterial& material) const {
+    return set.shadowsOff == shadowsOff && set.environmentOff == environmentOff &&
+           set.isEmpty == object.geometry->source->indices.empty() &&
+           std::equal(set.shaders.begin(), set.shaders.end(), material.shaders.begin(), material.shaders.end(),
                       sameStates);
 }
 
-Result<void> Renderer::State::updateLook(ObjectState& object, const Object& from) {
+Result<void> Renderer::State::updatePipelines(ObjectState& object, const Object& from) {
     if (auto checked = checkType(from.material.sharedType()); !checked) return checked;
     const bool strands = object.geometry->source->topology == Topology::Lines;
     // What was drawn with another type or topology cannot be bound to this one's values.
-    for (std::optional<Look>* look : {&object.shown, &object.next}) {
-        if (*look && ((*look)->type != from.material.sharedType() || (*look)->strands != strands)) look->reset();
+    for (std::optional<ObjectPipelines>* set : {&object.shown, &object.next}) {
+        if (*set && ((*set)->type != from.material.sharedType() || (*set)->strands != strands)) set->reset();
     }
-    const std::optional<Look>& newest = object.next ? object.next : object.shown;
-    if (!newest || !looksLike(*newest, object, *object.material)) {
-        object.next = Look{.type = from.material.sharedType(),
-                           .strands = strands,
-                           .isEmpty = object.geometry->source->indices.empty(),
-                           .shadowsOff = shadowsOff,
-                           .environmentOff = environmentOff,
-                           .shaders = object.material->shaders};
+    const std::optional<ObjectPipelines>& newest = object.next ? object.next : object.shown;
+    if (!newest || !isFor(*newest, object, *object.material)) {
+        object.next = ObjectPipelines{.type = from.material.sharedType(),
+                                      .strands = strands,
+                                      .isEmpty = object.geometry->source->indices.empty(),
+                                      .shadowsOff = shadowsOff,
+                                      .environmentOff = environmentOff,
+                                      .shaders = object.material->shaders};
     }
-    for (std::optional<Look>* look : {&object.shown, &object.next}) {
-        if (!*look || (*look)->graph == graphBuilds) continue;
-        if (auto asked = requestPipelines(**look, object.geometry->source->name); !asked)
+    for (std::optional<ObjectPipelines>* set : {&object.shown, &object.next}) {
+        if (!*set || (*set)->graph == graphBuilds) continue;
+        if (auto asked = requestPipelines(**set, object.geometry->source->name); !asked)
             return tl::unexpected(asked.error());
     }
     if (!object.next) return {};
@@ -134,39 +133,68 @@ Result<void> Renderer::State::checkType(const std::shared_ptr<const materials::M
     return {};
 }
 
-Result<void> Renderer::State::requestPipelines(Look& look, const std::string& label) {
-    look.draws.clear();
-    look.failureSaid = false;
-    for (const passes::PlanPass& pass : graph.plan().passes) {
-        if (pass.kind != passes::PassKind::Raster || look.isEmpty) continue;
-        const passes::Targets targets = passes::targetsOf(graph.plan(), pass);
-        for (std::uint32_t i = 0; i < look.shaders.size(); ++i) {
-            const materials::CompiledMaterial::Shader& shader = look.shaders[i];
-            if (!shader.enabled || shader.use.drawList != pass.drawList) continue;
-            auto descriptor = describePipeline(look, shader, targets);
-            if (!descriptor) return tl::unexpected(descriptor.error());
-            descriptor->label = label + " " + shader.use.name;
-            look.draws.push_back({pass.name, i, pipelines.request(std::move(*descriptor))});
+Result<void> Renderer::State::requestPipelines(ObjectPipelines& set, const std::string& label) {
+    set.uses.clear();
+    set.failureSaid = false;
+    for (std::uint32_t at = 0; at < graph.plan().passes.size(); ++at) {
+        const passes::PlanPass& pass = graph.plan().passes[at];
+        if (pass.drawList.empty() || set.isEmpty) continue;
+        for (std::uint32_t i = 0; i < set.shaders.size(); ++i) {
+            const materials::CompiledMaterial::Shader& shader = set.shaders[i];
+            const bool dispatched = pass.kind == passes::PassKind::Compute;
+            if (!shader.enabled || shader.use.drawList != pass.drawList || shader.use.isCompute() != dispatched)
+                continue;
+            const auto request = [&](auto descriptor) -> Result<void> {
+                if (!descriptor) return tl::unexpected(descriptor.error());
+                descriptor->label = label + " " + shader.use.name;
+                set.uses.push_back({at, i, pipelines.request(std::move(*descriptor))});
+                return {};
+            };
+            auto asked =
+                dispatched ? request(describeCompute(set, shader, pass)) : request(describePipeline(set, shader, pass));
+            if (!asked) return asked;
         }
     }
-    look.graph = graphBuilds;
+    set.graph = graphBuilds;
     return {};
 }
 
-Result<rhi::RenderPipelineDescriptor> Renderer::State::describePipeline(
-    const Look& look, const materials::CompiledMaterial::Shader& shader, const passes::Targets& targets) {
+std::vector<rhi::ConstantEntry> Renderer::State::constantsOf(const ObjectPipelines& set,
+                                                             const materials::CompiledMaterial::Shader& shader,
+                                                             const passes::PlanPass& pass,
+                                                             std::uint32_t samples) const {
     std::vector<rhi::ConstantEntry> constants = shader.constants;
-    materials::RenderState state = shader.state;
     for (rhi::ConstantEntry& constant : constants) {
-        if (constant.name == "shadowMode" && look.shadowsOff) constant.value = 0;
-        if (constant.name == "envOn" && look.environmentOff) constant.value = 0;
+        if (constant.name == "shadowMode" && set.shadowsOff) constant.value = 0;
+        if (constant.name == "envOn" && set.environmentOff) constant.value = 0;
         // A strand thinner than a pixel has no edge to test: its coverage is stochastic in every cut-out mode.
         const bool isCutOut = constant.value == 1 || constant.value == 2;
-        if (constant.name == "alphaMode" && look.strands && isCutOut) constant.value = 3;
+        if (constant.name == "alphaMode" && set.strands && isCutOut) constant.value = 3;
     }
-    if (look.strands) state.alphaToCoverage = false;
-    constants.push_back({"isStrand", look.strands ? 1.0 : 0.0});
-    constants.push_back({"sampleCount", static_cast<double>(targets.samples)});
+    constants.push_back({"isStrand", set.strands ? 1.0 : 0.0});
+    constants.push_back({"sampleCount", static_cast<double>(samples)});
+    // What the pass says goes before what the material says.
+    for (const auto& [name, value] : pass.constants) {
+        std::erase_if(constants, [&](const rhi::ConstantEntry& each) { return each.name == name; });
+        constants.push_back({name, value});
+    }
+    return constants;
+}
+
+Result<rhi::ComputePipelineDescriptor> Renderer::State::describeCompute(
+    const ObjectPipelines& set, const materials::CompiledMaterial::Shader& shader, const passes::PlanPass& pass) {
+    auto compute = module(shader.use.compute);
+    if (!compute) return tl::unexpected(compute.error());
+    return rhi::ComputePipelineDescriptor{
+        .compute = {*compute, declaredConstants(*compute, constantsOf(set, shader, pass, 1))}};
+}
+
+Result<rhi::RenderPipelineDescriptor> Renderer::State::describePipeline(
+    const ObjectPipelines& set, const materials::CompiledMaterial::Shader& shader, const passes::PlanPass& pass) {
+    const passes::Targets targets = passes::targetsOf(graph.plan(), pass);
+    const std::vector<rhi::ConstantEntry> constants = constantsOf(set, shader, pass, targets.samples);
+    materials::RenderState state = shader.state;
+    if (set.strands) state.alphaToCoverage = false;
 
     auto vertex = module(shader.use.vertex);
     if (!vertex) return tl::unexpected(vertex.error());
@@ -174,7 +202,7 @@ Result<rhi::RenderPipelineDescriptor> Renderer::State::describePipeline(
     descriptor.vertex = {*vertex, declaredConstants(*vertex, constants)};
     descriptor.vertexBuffers = {vertexLayout};
     descriptor.primitive = {
-        .topology = look.strands ? rhi::PrimitiveTopology::LineList : rhi::PrimitiveTopology::TriangleList,
+        .topology = set.strands ? rhi::PrimitiveTopology::LineList : rhi::PrimitiveTopology::TriangleList,
         .cullMode = state.cull};
     if (targets.depth != rhi::TextureFormat::Undefined) {
         descriptor.depthStencil = {.format = targets.depth,
