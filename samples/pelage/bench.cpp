@@ -8,6 +8,8 @@
 #include "gpu.hpp"
 #include "stage.hpp"
 
+#include <pelage/hair/scattering.hpp>
+
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
