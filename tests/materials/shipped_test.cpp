@@ -91,31 +91,14 @@ TEST(Shipped, InputsAndOptionsAreTheShadersNames) {
                                           "colorMap",   "opacityMap",     "strandIdMap"};
     const std::vector<std::string> options{"alphaMode", "shadowMode",  "pcfRadius",  "envOn",
                                            "ambientOn", "useColorMap", "useStrandId"};
-    const std::vector<std::vector<std::string>> ownInputs{
-        {"sigmaA",
-         "colorFit",
-         "gainR",
-         "gainTT",
-         "gainTRT",
-         "gainRES",
-         "eta",
-         "etaExcess",
-         "alpha",
-         "betaN",
-         "inverseScale",
-         "peak",
-         "inverseVariance",
-         "norm",
-         "deviation",
-         "sinTilt",
-         "cosTilt",
-         "glint",
-         "inverseVarianceWide",
-         "normWide",
-         "deviationWide",
-         "momentTable"},
+    std::vector<std::vector<std::string>> ownInputs{
+        {"sigmaA", "colorFit", "gainR", "gainTT", "gainTRT", "gainRES", "momentTable"},
         {"specularColor", "specularExponent", "specularNorm", "specularWeight", "diffuseWeight"},
         {"metallic", "roughness", "fresnelF0", "specularScale"}};
+#define FIBER_PARAMETER(type, name) ownInputs[0].emplace_back(#name);
+#define FIBER_WIDTH(type, name) ownInputs[0].insert(ownInputs[0].end(), {#name, #name "Wide"});
+#define FIBER_POINT(type, name)
+#include "scattering/fiber_parameters.def"
     const std::vector<std::vector<std::string>> ownOptions{
         {"lobeR", "lobeTT", "lobeTRT", "lobeRES", "attenuationModel", "scatteringModel", "asPublished", "chiangColor"},
         {},
