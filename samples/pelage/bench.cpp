@@ -35,7 +35,7 @@ std::vector<Contender> contenders() {
     return all;
 }
 
-Outcome<std::vector<Contender>> choose(const std::vector<std::string>& names) {
+Result<std::vector<Contender>> choose(const std::vector<std::string>& names) {
     const std::vector<Contender> known = contenders();
     std::vector<Contender> chosen;
     for (const std::string& name : names) {
@@ -64,7 +64,7 @@ struct Samples {
 };
 
 /// The material of a contender, on all hair of the scene where one is given.
-Outcome<materials::Material> materialOf(const Contender& contender, hair::Library& library) {
+Result<materials::Material> materialOf(const Contender& contender, hair::Library& library) {
     auto parsed = library.material(std::string(contender.material));
     if (!parsed) return tl::unexpected(Failure(parsed.error()));
     if (contender.model) {
@@ -91,7 +91,7 @@ ModelResult summarise(const Contender& contender, const Samples& samples) {
     return result;
 }
 
-Outcome<void> measure(std::vector<Samples>& all, hair::Renderer& renderer, const hair::FrameSettings& frame,
+Result<void> measure(std::vector<Samples>& all, hair::Renderer& renderer, const hair::FrameSettings& frame,
                       std::uint32_t repeat) {
     // The first round compiles shaders and uploads; it is not counted.
     for (std::uint32_t round = 0; round <= repeat; ++round) {
