@@ -1,10 +1,20 @@
 // SPDX-License-Identifier: MIT
-// The material of a fibre on the device: its uniform block, its table, and how light meets it. Expects options.glsl and
-// material_common.glsl.
+// The material of a fibre on the device: its uniform block, its table, and how light meets it, for fragment and compute
+// shaders alike: what depends on the place is an argument. Expects options.glsl and material_common.glsl.
 #ifndef PELAGE_FIBER_MATERIAL_GLSL
 #define PELAGE_FIBER_MATERIAL_GLSL
 #include "visibility/hash.glsl"
 #include "scattering/models/models.glsl"
+
+// Traits of the model that the options select.
+const int modelTraits = 0
+#define PELAGE_SCATTERING_MODEL(number, id, name, function, traits, title, source) \
+    + int(scatteringModel == number) * (traits)
+#include "include/pelage/hair/scattering_models.def"
+#undef PELAGE_SCATTERING_MODEL
+    ;
+const bool usesMomentTable = (modelTraits & TRAIT_TABLE) != 0;
+const bool usesOffset = (modelTraits & TRAIT_NEAR_FIELD) != 0;
 
 layout(set = 2, binding = 0, std140) uniform Material {
     vec3 baseColor;
@@ -19,9 +29,14 @@ layout(set = 2, binding = 0, std140) uniform Material {
     float shadowDensity;
     vec3 gainRES;
     float shadowBias;
-    vec4 fiber0, fiber1;  // eta, its excess, alpha, beta_M; beta_N, 1 / s, peak
-    vec4 inverseVariance, norm, deviation, sinTilt, cosTilt, glint;
-    vec4 envInverseVariance, envNorm, envDeviation;
+#define FIBER_PARAMETER(type, name) type name;
+#define FIBER_POINT(type, name)
+#include "scattering/fiber_parameters.def"
+    // The same of the wider lobes that the one sample of the environment takes.
+#define FIBER_PARAMETER(type, name)
+#define FIBER_WIDTH(type, name) type name##Wide;
+#define FIBER_POINT(type, name)
+#include "scattering/fiber_parameters.def"
 } material;
 layout(set = 2, binding = 5) uniform texture2DArray momentTable;
 
@@ -35,29 +50,26 @@ vec3 sigmaOf(vec3 color) {
 
 FiberMaterial fiberMaterial(vec3 color) {
     FiberMaterial m;
-    m.eta = material.fiber0.x;
-    m.etaExcess = material.fiber0.y;
-    m.alpha = material.fiber0.z;
-    m.betaM = material.fiber0.w;
-    m.betaN = material.fiber1.x;
-    m.inverseScale = material.fiber1.y;
-    m.peak = material.fiber1.z;
+#define FIBER_PARAMETER(type, name) m.name = material.name;
+#define FIBER_POINT(type, name)
+#include "scattering/fiber_parameters.def"
     m.sigmaA = sigmaOf(color);
     // Models without absorption reflect the base colour, or what pigments make of white.
     m.color = clamp(color, vec3(0.0), vec3(1.0)) * exp(-4.0 * material.sigmaA);
-    m.inverseVariance = material.inverseVariance;
-    m.norm = material.norm;
-    m.deviation = material.deviation;
-    m.sinTilt = material.sinTilt;
-    m.cosTilt = material.cosTilt;
-    m.glint = material.glint;
     m.offsetFit = attenuationModel == ATTENUATION_KARIS_H ? 1.0 : 0.0;
-    m.nearField = scatteringModel == MODEL_CHIANG ? 1.0 : 0.0;
+    m.nearField = usesOffset ? 1.0 : 0.0;
     return m;
 }
 
-const bool usesMomentTable =
-    scatteringModel == MODEL_GERARD || scatteringModel == MODEL_PXR || scatteringModel == MODEL_MOMENT_LUT;
+// With the lobes for the one sample that stands for a whole environment (Karis 2016).
+FiberMaterial widened(FiberMaterial m) {
+    FiberMaterial wide = m;
+#define FIBER_PARAMETER(type, name)
+#define FIBER_WIDTH(type, name) wide.name = material.name##Wide;
+#define FIBER_POINT(type, name)
+#include "scattering/fiber_parameters.def"
+    return wide;
+}
 
 #define MOMENT_TEXTURE sampler2DArray(momentTable, s_material)
 #include "moment_texture.glsl"
@@ -86,8 +98,8 @@ vec3 scatter(FiberAngles a, FiberMaterial m, MomentRow row, bool withTT) {
     return sum;
 }
 
-// chiang knows one offset at a time: a fragment takes one at random, evenly over the width of the fibre.
-float fragmentOffset(vec2 pixel, float strand) {
-    return 2.0 * hash01(uvec3(uvec2(pixel), floatBitsToUint(strand))) - 1.0;
+// Near-field models know one offset at a time: each pixel takes one at random, evenly over the width of the fibre.
+float pixelOffset(vec2 pixel, float strand) {
+    return usesOffset ? 2.0 * hash01(uvec3(uvec2(pixel), floatBitsToUint(strand))) - 1.0 : 0.0;
 }
 #endif

@@ -1,120 +1,119 @@
 // SPDX-License-Identifier: MIT
-// Each functor is one function that makes its type: ports first, then what it computes.
+// The functors of all shipped material types; those of fibres alone are in functors_fiber.cpp.
 #include <pelage/hair/functors.hpp>
 
 #include "functor_ports.hpp"
 #include "functors_fiber.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
 namespace pelage::hair {
 namespace {
 
-using materials::FunctorOutputs;
-using materials::FunctorType;
-using materials::Value;
-using materials::ValueType;
-
 // The integral of max(cos(theta_i - theta_r), 0)^p over the sphere at theta_r = 0 is
 // 2 pi sqrt(pi) Gamma((p + 2) / 2) / Gamma((p + 3) / 2): 4.64 for p = 10, 1.74 for p = 80. Its inverse makes the
 // highlight reflect `weight` at normal incidence. The ratio of gammas goes through logarithms: both overflow at p =
 // 340.
-FunctorType kajiyaSpecular() {
-    FunctorType type;
-    type.name = "KajiyaSpecular";
-    type.description = "Kajiya-Kay highlight: exponent, its normalisation, and weights.";
-    type.in = {port("enable", ValueType::Bool), port("exponent", ValueType::Float), port("weight", ValueType::Float)};
-    type.out = {port("exponent", ValueType::Float), port("norm", ValueType::Float), port("weight", ValueType::Float)};
-    type.run = [](std::span<const Value> in, FunctorOutputs& out) {
-        const float exponent = std::max(in[1].number[0], 0.0F);
-        const double p = static_cast<double>(exponent);
+struct KajiyaSpecular : Functor {
+    In<bool> enable{this, "enable"};
+    In<float> exponent{this, "exponent"};
+    In<float> weight{this, "weight"};
+    Out<float> usedExponent{this, "exponent"};
+    Out<float> norm{this, "norm"};
+    Out<float> usedWeight{this, "weight"};
+
+    void run(const Call& call) const {
+        const float used = std::max(call[exponent], 0.0F);
+        const double p = static_cast<double>(used);
         const double ratio = std::exp(std::lgamma(0.5 * (p + 2.0)) - std::lgamma(0.5 * (p + 3.0)));
         const double integral = 2.0 * std::numbers::pi * std::sqrt(std::numbers::pi) * ratio;
-        out.set(0, Value::scalar(exponent));
-        out.set(1, Value::scalar(static_cast<float>(1.0 / integral)));
-        out.set(2, Value::scalar(in[0].integer != 0 ? in[2].number[0] : 0.0F));
-    };
-    return type;
-}
+        call.set(usedExponent, used);
+        call.set(norm, static_cast<float>(1.0 / integral));
+        call.set(usedWeight, call[enable] ? call[weight] : 0.0F);
+    }
+};
 
-FunctorType strandIdVariation() {
-    FunctorType type;
-    type.name = "StrandIdVariation";
-    type.description = "Brightness variation from strand to strand.";
-    type.in = {port("map", ValueType::Texture2D), port("useMap", ValueType::Bool), port("amount", ValueType::Float)};
-    type.out = {port("map", ValueType::Texture2D), port("useMap", ValueType::Bool),
-                port("amplitude", ValueType::Float)};
-    type.run = [](std::span<const Value> in, FunctorOutputs& out) {
-        const float amplitude = in[1].integer != 0 ? std::max(in[2].number[0], 0.0F) : 0.0F;
-        out.set(0, in[0]);
-        out.set(1, Value::boolean(amplitude > 0.0F));
-        out.set(2, Value::scalar(amplitude));
-    };
-    return type;
-}
+struct StrandIdVariation : Functor {
+    In<Texture> map{this, "map"};
+    In<bool> useMap{this, "useMap"};
+    In<float> amount{this, "amount"};
+    Out<Texture> usedMap{this, "map"};
+    Out<bool> isUsed{this, "useMap"};
+    Out<float> amplitude{this, "amplitude"};
+
+    void run(const Call& call) const {
+        const float used = call[useMap] ? std::max(call[amount], 0.0F) : 0.0F;
+        call.pass(map, usedMap);
+        call.set(isUsed, used > 0.0F);
+        call.set(amplitude, used);
+    }
+};
 
 // Exponential falloff leaves a tenth of the light `distance` metres behind the first surface: density = ln 10 /
 // distance.
-FunctorType shadowFalloff() {
-    const std::vector<std::string> modes{"off", "hard", "pcf", "exponential"};
-    FunctorType type;
-    type.name = "ShadowFalloff";
-    type.description = "How shadows are looked up, and how fast light fades inside the hair (1/m).";
-    type.in = {words("mode", modes), port("distance", ValueType::Float), port("radius", ValueType::Int)};
-    type.out = {words("mode", modes), port("density", ValueType::Float), port("radius", ValueType::Int)};
-    type.run = [](std::span<const Value> in, FunctorOutputs& out) {
-        const bool isExponential = in[0].integer == 3;
-        const float distance = std::max(in[1].number[0], 1e-6F);
-        out.set(0, in[0]);
-        out.set(1, Value::scalar(isExponential ? std::numbers::ln10_v<float> / distance : 0.0F));
-        out.set(2, in[2]);
-    };
-    return type;
-}
+struct ShadowFalloff : Functor {
+    enum class Mode { Off, Hard, Pcf, Exponential };
+    static Words<Mode> modes() {
+        return {{"off", Mode::Off}, {"hard", Mode::Hard}, {"pcf", Mode::Pcf}, {"exponential", Mode::Exponential}};
+    }
+    In<Mode> mode{this, "mode", modes()};
+    In<float> distance{this, "distance"};
+    In<int> radius{this, "radius"};
+    Out<Mode> usedMode{this, "mode", modes()};
+    Out<float> density{this, "density"};
+    Out<int> usedRadius{this, "radius"};
 
-FunctorType environmentScale() {
-    FunctorType type;
-    type.name = "EnvironmentScale";
-    type.description = "Light from the environment; off when its intensity is zero.";
-    type.in = {port("enable", ValueType::Bool), port("intensity", ValueType::Float)};
-    type.out = {port("on", ValueType::Bool), port("scale", ValueType::Float)};
-    type.run = [](std::span<const Value> in, FunctorOutputs& out) {
-        const float scale = in[0].integer != 0 ? std::max(in[1].number[0], 0.0F) : 0.0F;
-        out.set(0, Value::boolean(scale > 0.0F));
-        out.set(1, Value::scalar(scale));
-    };
-    return type;
-}
+    void run(const Call& call) const {
+        const float tenth = std::max(call[distance], 1e-6F);
+        call.pass(mode, usedMode);
+        call.set(density, call[mode] == Mode::Exponential ? std::numbers::ln10_v<float> / tenth : 0.0F);
+        call.pass(radius, usedRadius);
+    }
+};
 
-FunctorType constantScatter() {
-    FunctorType type;
-    type.name = "ConstantScatter";
-    type.description = "A constant in place of multiple scattering; off when its factor is zero.";
-    type.in = {words("mode", {"off", "constant"}), port("factor", ValueType::Float)};
-    type.out = {port("on", ValueType::Bool), port("amount", ValueType::Float)};
-    type.run = [](std::span<const Value> in, FunctorOutputs& out) {
-        const float amount = in[0].integer == 1 ? std::max(in[1].number[0], 0.0F) : 0.0F;
-        out.set(0, Value::boolean(amount > 0.0F));
-        out.set(1, Value::scalar(amount));
-    };
-    return type;
-}
+struct EnvironmentScale : Functor {
+    In<bool> enable{this, "enable"};
+    In<float> intensity{this, "intensity"};
+    Out<bool> on{this, "on"};
+    Out<float> scale{this, "scale"};
+
+    void run(const Call& call) const {
+        const float used = call[enable] ? std::max(call[intensity], 0.0F) : 0.0F;
+        call.set(on, used > 0.0F);
+        call.set(scale, used);
+    }
+};
+
+struct ConstantScatter : Functor {
+    enum class Mode { Off, Constant };
+    In<Mode> mode{this, "mode", {{"off", Mode::Off}, {"constant", Mode::Constant}}};
+    In<float> factor{this, "factor"};
+    Out<bool> on{this, "on"};
+    Out<float> amount{this, "amount"};
+
+    void run(const Call& call) const {
+        const float used = call[mode] == Mode::Constant ? std::max(call[factor], 0.0F) : 0.0F;
+        call.set(on, used > 0.0F);
+        call.set(amount, used);
+    }
+};
 
 }  // namespace
 
 materials::FunctorRegistry functorRegistry() {
     materials::FunctorRegistry registry = materials::FunctorRegistry::standard();
-    registry.add(fiberColor());
-    registry.add(fiberShape());
-    registry.add(lobeWeights());
-    registry.add(kajiyaSpecular());
-    registry.add(strandIdVariation());
-    registry.add(shadowFalloff());
-    registry.add(environmentScale());
-    registry.add(constantScatter());
+    addFiberFunctors(registry);
+    registry.add(functorType<KajiyaSpecular>("KajiyaSpecular",
+                                             "Kajiya-Kay highlight: exponent, its normalisation, and weights."));
+    registry.add(functorType<StrandIdVariation>("StrandIdVariation", "Brightness variation from strand to strand."));
+    registry.add(functorType<ShadowFalloff>(
+        "ShadowFalloff", "How shadows are looked up, and how fast light fades inside the hair (1/m)."));
+    registry.add(functorType<EnvironmentScale>("EnvironmentScale",
+                                               "Light from the environment; off when its intensity is zero."));
+    registry.add(functorType<ConstantScatter>(
+        "ConstantScatter", "A constant in place of multiple scattering; off when its factor is zero."));
     return registry;
 }
 

@@ -11,152 +11,160 @@
 namespace pelage::hair {
 namespace {
 
-using materials::FunctorOutputs;
-using materials::FunctorType;
-using materials::Value;
-using materials::ValueType;
-
-Value float4(const std::array<double, 4>& x) {
-    return {ValueType::Float4,
-            {static_cast<float>(x[0]), static_cast<float>(x[1]), static_cast<float>(x[2]), static_cast<float>(x[3])},
-            0,
-            {}};
-}
-
-double real(const Value& value) {
-    return static_cast<double>(value.number[0]);
-}
-
 constexpr double radiansPerDegree = std::numbers::pi / 180.0;
-
-}  // namespace
 
 // Absorption is made in two places: what the material knows becomes `sigma` here; what changes over a surface (base
 // colour, its map, the variation from strand to strand) is turned into absorption in the shader, by one of two laws.
-FunctorType fiberColor() {
-    const std::vector<std::string> modes{"pathColor", "color", "melanin", "sigma"};
-    FunctorType type;
-    type.name = "FiberColor";
-    type.description = "Absorption (per radius) from a colour, from pigments or as it is.";
-    type.in = {words("mode", modes),
-               port("color", ValueType::Color),
-               port("map", ValueType::Texture2D),
-               port("useMap", ValueType::Bool),
-               port("eumelanin", ValueType::Float),
-               port("pheomelanin", ValueType::Float),
-               port("sigma", ValueType::Float3),
-               port("betaN", ValueType::Float)};
-    type.out = {port("color", ValueType::Color),  port("map", ValueType::Texture2D), port("useMap", ValueType::Bool),
-                port("sigma", ValueType::Float3), port("fit", ValueType::Float),     port("chiang", ValueType::Bool)};
-    type.run = [](std::span<const Value> in, FunctorOutputs& out) {
-        const std::int64_t mode = in[0].integer;
-        std::array<double, 3> sigma{};
-        if (mode == 2) sigma = sigmaFromMelanin(real(in[4]), real(in[5]));
-        if (mode == 3) {
-            for (std::size_t c = 0; c < 3; ++c) sigma[c] = std::clamp(static_cast<double>(in[6].number[c]), 0.0, 1e4);
+struct FiberColor : Functor {
+    enum class Mode { PathColor, Color, Melanin, Sigma };
+    In<Mode> mode{
+        this,
+        "mode",
+        {{"pathColor", Mode::PathColor}, {"color", Mode::Color}, {"melanin", Mode::Melanin}, {"sigma", Mode::Sigma}}};
+    In<Color> base{this, "color"};
+    In<Texture> map{this, "map"};
+    In<bool> useMap{this, "useMap"};
+    In<float> eumelanin{this, "eumelanin"};
+    In<float> pheomelanin{this, "pheomelanin"};
+    In<Float3> sigma{this, "sigma"};
+    In<float> betaN{this, "betaN"};
+    Out<Color> usedBase{this, "color"};
+    Out<Texture> usedMap{this, "map"};
+    Out<bool> isMapped{this, "useMap"};
+    Out<Float3> absorption{this, "sigma"};
+    Out<float> fit{this, "fit"};
+    Out<bool> isChiangs{this, "chiang"};
+
+    void run(const Call& call) const {
+        std::array<double, 3> known{};
+        if (call[mode] == Mode::Melanin) {
+            known = sigmaFromMelanin(static_cast<double>(call[eumelanin]), static_cast<double>(call[pheomelanin]));
+        }
+        if (call[mode] == Mode::Sigma) {
+            for (std::size_t c = 0; c < 3; ++c) {
+                known[c] = std::clamp(static_cast<double>(call[sigma][c]), 0.0, 1e4);
+            }
         }
         // With pigments or sigma the base colour is white and only its map is left of it.
-        out.set(0, mode >= 2 ? Value::color(1, 1, 1) : in[1]);
-        const bool isWhite = in[2].text.empty() || in[2].text == "builtin.white";
-        out.set(1, in[2]);
-        out.set(2, Value::boolean(in[3].integer != 0 && !isWhite));
-        out.set(
-            3, Value::float3(static_cast<float>(sigma[0]), static_cast<float>(sigma[1]), static_cast<float>(sigma[2])));
+        if (call[mode] == Mode::Melanin || call[mode] == Mode::Sigma) {
+            call.set(usedBase, {1, 1, 1});
+        } else {
+            call.pass(base, usedBase);
+        }
+        const bool isWhite = call[map].empty() || call[map] == "builtin.white";
+        call.pass(map, usedMap);
+        call.set(isMapped, call[useMap] && !isWhite);
+        Float3 told;
+        narrow(known, told);
+        call.set(absorption, told);
         // sigma = (fit ln C)^2, Chiang 2016 (9).
-        out.set(4, Value::scalar(static_cast<float>(std::sqrt(sigmaFromColor(std::exp(-1.0), real(in[7]))))));
-        out.set(5, Value::boolean(mode == 1));
-    };
-    return type;
+        const double roughness = static_cast<double>(call[betaN]);
+        call.set(fit, static_cast<float>(std::sqrt(sigmaFromColor(std::exp(-1.0), roughness))));
+        call.set(isChiangs, call[mode] == Mode::Color);
+    }
+};
+
+Words<ScatteringModel> modelWords() {
+    Words<ScatteringModel> words;
+    for (const ModelInfo& info : scatteringModels()) words.emplace_back(info.id, info.model);
+    return words;
 }
 
-FunctorType fiberShape() {
-    FunctorType type;
-    type.name = "FiberShape";
-    type.description = "What the scattering models take of a fibre (fiber.glsl), and the table they read.";
-    type.in = {words("model", {"kajiyaKay", "scheuermann", "marschner", "karis", "thesis", "gerard", "chiang", "pxr",
-                               "momentLut", "segmentCdf"}),
-               port("ior", ValueType::Float),
-               port("betaM", ValueType::Float),
-               port("betaN", ValueType::Float),
-               port("tiltDeg", ValueType::Float),
-               port("widths", ValueType::Float3),
-               port("shifts", ValueType::Float3),
-               port("glintGain", ValueType::Float),
-               port("glintWidth", ValueType::Float),
-               port("glintShift", ValueType::Float),
-               port("envBoost", ValueType::Float)};
-    type.out = {port("fiber0", ValueType::Float4),
-                port("fiber1", ValueType::Float4),
-                port("inverseVariance", ValueType::Float4),
-                port("norm", ValueType::Float4),
-                port("deviation", ValueType::Float4),
-                port("sinTilt", ValueType::Float4),
-                port("cosTilt", ValueType::Float4),
-                port("glint", ValueType::Float4),
-                port("envInverseVariance", ValueType::Float4),
-                port("envNorm", ValueType::Float4),
-                port("envDeviation", ValueType::Float4),
-                port("table", ValueType::Texture2D)};
-    type.run = [](std::span<const Value> in, FunctorOutputs& out) {
+// Its outputs are the members of the uniform block of fiber_material.glsl: those of fiber_parameters.def that a
+// material has, and ...Wide of those that the wider lobes of the environment change.
+struct FiberShape : Functor {
+    In<ScatteringModel> model{this, "model", modelWords()};
+    In<float> ior{this, "ior"};
+    In<float> longitudinalRoughness{this, "betaM"};
+    In<float> azimuthalRoughness{this, "betaN"};
+    In<float> tilt{this, "tiltDeg"};
+    In<Float3> widths{this, "widths"};
+    In<Float3> shifts{this, "shifts"};
+    In<float> glintGain{this, "glintGain"};
+    In<float> glintWidth{this, "glintWidth"};
+    In<float> glintShift{this, "glintShift"};
+    In<float> envBoost{this, "envBoost"};
+    using real = float;
+    using real4 = Float4;
+#define FIBER_PARAMETER(type, name) Out<type> name{this, #name};
+#define FIBER_POINT(type, name)
+#include "scattering/fiber_parameters.def"
+#define FIBER_PARAMETER(type, name)
+#define FIBER_WIDTH(type, name) Out<type> name##Wide{this, #name "Wide"};
+#define FIBER_POINT(type, name)
+#include "scattering/fiber_parameters.def"
+    Out<Texture> table{this, "table"};
+
+    void run(const Call& call) const {
+        const ModelInfo* info = findScatteringModel(call[model]);
+        const auto at = [&](In<float> port) { return static_cast<double>(call[port]); };
         FiberProperties fiber;
-        fiber.eta = real(in[1]);
-        fiber.betaM = real(in[2]);
-        fiber.betaN = real(in[3]);
-        fiber.alpha = real(in[4]) * radiansPerDegree;
-        // The controls belong to pxr; what they were set to there means nothing to the others.
-        const bool controls = in[0].integer == static_cast<std::int64_t>(ScatteringModel::Pxr);
-        for (std::size_t p = 0; controls && p < 3; ++p) {
-            fiber.widthScale[p] = static_cast<double>(in[5].number[p]);
-            fiber.shift[p] = static_cast<double>(in[6].number[p]) * radiansPerDegree;
+        fiber.eta = at(ior);
+        fiber.betaM = at(longitudinalRoughness);
+        fiber.betaN = at(azimuthalRoughness);
+        fiber.alpha = at(tilt) * radiansPerDegree;
+        // What the controls were set to for a model that has them means nothing to the others.
+        for (std::size_t p = 0; info && info->controls && p < 3; ++p) {
+            fiber.widthScale[p] = static_cast<double>(call[widths][p]);
+            fiber.shift[p] = static_cast<double>(call[shifts][p]) * radiansPerDegree;
         }
-        fiber.glintGain = real(in[7]);
-        fiber.glintWidth = real(in[8]);
-        fiber.glintShift = real(in[9]);
-        const ResolvedFiber r = resolve(fiber);
-        out.set(0, float4({r.eta, r.etaExcess, r.alpha, r.betaM}));
-        out.set(1, float4({r.betaN, r.inverseScale, r.peak, 0}));
-        out.set(2, float4(r.inverseVariance));
-        out.set(3, float4(r.norm));
-        out.set(4, float4(r.deviation));
-        out.set(5, float4(r.sinTilt));
-        out.set(6, float4(r.cosTilt));
-        out.set(7, float4(r.glint));
+        fiber.glintGain = at(glintGain);
+        fiber.glintWidth = at(glintWidth);
+        fiber.glintShift = at(glintShift);
+        const ResolvedFiber resolved = resolveFiber(fiber);
         // One irradiance sample stands for a whole environment, so the lobes are widened for it (Karis 2016).
-        fiber.betaM += std::max(real(in[10]), 0.0);
-        const ResolvedFiber wide = resolve(fiber);
-        out.set(8, float4(wide.inverseVariance));
-        out.set(9, float4(wide.norm));
-        out.set(10, float4(wide.deviation));
-        const auto model = static_cast<std::size_t>(std::clamp<std::int64_t>(in[0].integer, 0, 9));
-        out.set(11, Value::texture(scatteringModels()[model].usesTable ? momentTableName(r.eta, r.betaN)
-                                                                       : std::string(momentTableNone)));
-    };
-    return type;
-}
+        fiber.betaM += std::max(at(envBoost), 0.0);
+        const ResolvedFiber widened = resolveFiber(fiber);
+        const auto write = [&](auto port, const auto& number) {
+            typename decltype(port)::Type narrowed{};
+            narrow(number, narrowed);
+            call.set(port, narrowed);
+        };
+#define FIBER_PARAMETER(type, name) write(name, resolved.name);
+#define FIBER_POINT(type, name)
+#include "scattering/fiber_parameters.def"
+#define FIBER_PARAMETER(type, name)
+#define FIBER_WIDTH(type, name) write(name##Wide, widened.name);
+#define FIBER_POINT(type, name)
+#include "scattering/fiber_parameters.def"
+        call.set(table, info && info->usesTable ? momentTableName(resolved.eta, resolved.betaN)
+                                                : std::string(momentTableNone));
+    }
+};
 
 // A lobe whose weight is zero is compiled out.
-FunctorType lobeWeights() {
-    FunctorType type;
-    type.name = "LobeWeights";
-    type.description = "Weights and tints of the lobes; a lobe of weight zero is compiled out.";
-    for (const char* lobe : {"R", "TT", "TRT", "RES"}) {
-        type.in.push_back(port(std::string("enable") + lobe, ValueType::Bool));
-        type.in.push_back(port(std::string("weight") + lobe, ValueType::Float));
-        type.in.push_back(port(std::string("tint") + lobe, ValueType::Color));
-        type.out.push_back(port(std::string("gain") + lobe, ValueType::Color));
-    }
-    for (const char* lobe : {"R", "TT", "TRT", "RES"}) {
-        type.out.push_back(port(std::string("on") + lobe, ValueType::Bool));
-    }
-    type.run = [](std::span<const Value> in, FunctorOutputs& out) {
-        for (std::size_t lobe = 0; lobe < 4; ++lobe) {
-            const float weight = in[3 * lobe].integer != 0 ? std::max(in[3 * lobe + 1].number[0], 0.0F) : 0.0F;
-            const std::array<float, 4>& tint = in[3 * lobe + 2].number;
-            out.set(lobe, Value::color(weight * tint[0], weight * tint[1], weight * tint[2]));
-            out.set(lobe + 4, Value::boolean(weight > 0.0F && (tint[0] > 0.0F || tint[1] > 0.0F || tint[2] > 0.0F)));
-        }
+struct LobeWeights : Functor {
+    struct Lobe {
+        In<bool> enable;
+        In<float> weight;
+        In<Color> tint;
     };
-    return type;
+    Lobe lobe(const std::string& name) {
+        return {{this, "enable" + name}, {this, "weight" + name}, {this, "tint" + name}};
+    }
+    std::array<Lobe, 4> lobes{lobe("R"), lobe("TT"), lobe("TRT"), lobe("RES")};
+    std::array<Out<Color>, 4> gains{{{this, "gainR"}, {this, "gainTT"}, {this, "gainTRT"}, {this, "gainRES"}}};
+    std::array<Out<bool>, 4> on{{{this, "onR"}, {this, "onTT"}, {this, "onTRT"}, {this, "onRES"}}};
+
+    void run(const Call& call) const {
+        for (std::size_t p = 0; p < lobes.size(); ++p) {
+            const float weight = call[lobes[p].enable] ? std::max(call[lobes[p].weight], 0.0F) : 0.0F;
+            const Float4& tint = call[lobes[p].tint];
+            call.set(gains[p], {weight * tint[0], weight * tint[1], weight * tint[2]});
+            call.set(on[p], weight > 0.0F && (tint[0] > 0.0F || tint[1] > 0.0F || tint[2] > 0.0F));
+        }
+    }
+};
+
+}  // namespace
+
+void addFiberFunctors(materials::FunctorRegistry& registry) {
+    registry.add(
+        functorType<FiberColor>("FiberColor", "Absorption (per radius) from a colour, from pigments or as it is."));
+    registry.add(functorType<FiberShape>(
+        "FiberShape", "What the scattering models take of a fibre (fiber_parameters.def), and the table they read."));
+    registry.add(functorType<LobeWeights>("LobeWeights",
+                                          "Weights and tints of the lobes; a lobe of weight zero is compiled out."));
 }
 
 }  // namespace pelage::hair

@@ -6,8 +6,6 @@
 
 namespace pelage::hair {
 
-materials::FunctorType fiberColor();
-materials::FunctorType fiberShape();
-materials::FunctorType lobeWeights();
+void addFiberFunctors(materials::FunctorRegistry& registry);
 
 }  // namespace pelage::hair

@@ -21,7 +21,7 @@ void main() {
     Surface s = fetchSurface();
     FiberMaterial m = fiberMaterial(s.color);
     MomentRow row = fetchRow(m, length(cross(s.tangent, s.wo)));
-    float h = scatteringModel == MODEL_CHIANG ? fragmentOffset(gl_FragCoord.xy, v_strand.x) : 0.0;
+    float h = pixelOffset(gl_FragCoord.xy, v_strand.x);
     vec3 radiance = vec3(0.0);
     vec3 ambient = frame.ambient.rgb;
     int count = int(frame.eye.w);
@@ -29,22 +29,15 @@ void main() {
         Incident incident = incidentLight(frame.lights[i], s.world);
         float lit = shadowTransmittance(frame.lights[i], s.world, material.shadowDensity, material.shadowBias);
         vec3 arriving = incident.irradiance * lit;
-        FiberAngles a = fiberAngles(s.tangent, incident.direction, s.wo);
-        a.h = h;
-        a.cosGamma = sqrt(max(1.0 - h * h, 0.0));
+        FiberAngles a = atOffset(fiberAngles(s.tangent, incident.direction, s.wo), h);
         radiance += scatter(a, m, row, true) * arriving;
         ambient += arriving * isotropic;
     }
     if (envOn) {
-        // One sample in the direction of the normal, with wider lobes for the size of what it stands for (Karis 2016).
-        // No TT, which would need what lies behind the hair (thesis section 4.4).
-        m.inverseVariance = material.envInverseVariance;
-        m.norm = material.envNorm;
-        m.deviation = material.envDeviation;
-        FiberAngles a = fiberAngles(s.tangent, s.normal, s.wo);
-        a.h = h;
-        a.cosGamma = sqrt(max(1.0 - h * h, 0.0));
-        radiance += scatter(a, m, row, false) * environmentIrradiance(s.normal) * material.envScale;
+        // One sample in the direction of the normal. No TT, which would need what lies behind the hair (thesis section
+        // 4.4).
+        FiberAngles a = atOffset(fiberAngles(s.tangent, s.normal, s.wo), h);
+        radiance += scatter(a, widened(m), row, false) * environmentIrradiance(s.normal) * material.envScale;
     }
     if (ambientOn) radiance += m.color * ambient * material.ambientScatter;
     o_color = finish(radiance, s);

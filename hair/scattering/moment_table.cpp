@@ -96,15 +96,11 @@ MomentTable::MomentTable(double eta, double betaN) : state_(std::make_unique<Sta
     FiberProperties properties;
     properties.eta = eta;
     properties.betaN = betaN;
-    const ResolvedFiber r = resolve(properties);
     State& s = *state_;
-    s.fiber.eta = r.eta;
-    s.fiber.etaExcess = r.etaExcess;
-    s.fiber.inverseScale = r.inverseScale;
-    s.fiber.peak = r.peak;
-    const double scale = 1.0 / r.inverseScale;
+    s.fiber = narrowed<FiberMaterial>(resolveFiber(properties));
+    const double scale = 1.0 / s.fiber.inverseScale;
     s.width = scale > 0.1 ? 64 : (scale > 0.04 ? 128 : (scale > 0.015 ? 256 : 512));
-    s.nodes = static_cast<std::uint32_t>(std::clamp(14.0 * r.inverseScale, 256.0, 8192.0));
+    s.nodes = static_cast<std::uint32_t>(std::clamp(14.0 * s.fiber.inverseScale, 256.0, 8192.0));
     s.height = s.width > 128 ? 96 : 64;
     s.rows.resize(s.height);
     s.texels.resize(s.height);

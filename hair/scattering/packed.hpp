@@ -1,39 +1,34 @@
 // SPDX-License-Identifier: MIT
-// A resolved fibre in float, as packed_fiber.glsl reads it (std430).
+// FiberMaterial and FiberAngles of fiber.glsl as they lie in a storage buffer (std430).
 #pragma once
 
 #include "resolve.hpp"
 
 namespace pelage::hair {
 
-using Vec4 = std::array<float, 4>;
+namespace std430 {
+using real = float;
+using real3 = std::array<float, 3>;
+using real4 = std::array<float, 4>;
+template <class T>
+inline constexpr std::size_t alignment = sizeof(T) == sizeof(float) ? sizeof(float) : sizeof(real4);
+}  // namespace std430
 
 struct PackedFiber {
-    Vec4 fiber0, fiber1, sigmaA, color;
-    Vec4 inverseVariance, norm, deviation, sinTilt, cosTilt, glint;
+#define FIBER_PARAMETER(type, name) alignas(std430::alignment<std430::type>) std430::type name;
+#include "scattering/fiber_parameters.def"
 };
 
-inline Vec4 packed(double x, double y, double z, double w) {
-    return {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z), static_cast<float>(w)};
-}
-inline Vec4 packed(const std::array<double, 4>& x) {
-    return packed(x[0], x[1], x[2], x[3]);
-}
-inline Vec4 packed(const std::array<double, 3>& x) {
-    return packed(x[0], x[1], x[2], 0);
-}
+struct PackedAngles {
+#define FIBER_ANGLE(name) float name;
+#include "scattering/fiber_angles.def"
+};
 
-inline PackedFiber packed(const ResolvedFiber& f, bool nearField) {
-    return {packed(f.eta, f.etaExcess, f.alpha, f.betaM),
-            packed(f.betaN, f.inverseScale, f.peak, nearField ? 1 : 0),
-            packed(f.sigmaA),
-            packed(f.color),
-            packed(f.inverseVariance),
-            packed(f.norm),
-            packed(f.deviation),
-            packed(f.sinTilt),
-            packed(f.cosTilt),
-            packed(f.glint)};
+inline PackedFiber packed(const ResolvedFiber& fiber) {
+    return narrowed<PackedFiber>(fiber);
+}
+inline PackedAngles packed(const ResolvedDirections& directions) {
+    return narrowed<PackedAngles>(directions);
 }
 
 }  // namespace pelage::hair

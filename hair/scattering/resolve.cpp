@@ -42,17 +42,17 @@ FiberProperties clamped(const FiberProperties& fiber) {
     return f;
 }
 
-ResolvedFiber resolve(const FiberProperties& fiber) {
+ResolvedFiber resolveFiber(const FiberProperties& fiber, bool nearField) {
     const FiberProperties f = clamped(fiber);
     const double s = logisticScale(f.betaN);
-    ResolvedFiber r{};
+    ResolvedFiber r;
     r.eta = f.eta;
     r.etaExcess = (f.eta - 1.0) * (f.eta + 1.0);
     r.alpha = f.alpha;
-    r.betaM = f.betaM;
     r.betaN = f.betaN;
     r.inverseScale = 1.0 / s;
     r.peak = 1.0 / (s * std::tanh(std::numbers::pi / (2.0 * s)));
+    r.nearField = nearField ? 1.0 : 0.0;
     r.sigmaA = f.sigmaA;
     r.color = f.color;
     auto v = longitudinalVariances(f.betaM);
@@ -71,16 +71,16 @@ ResolvedFiber resolve(const FiberProperties& fiber) {
     return r;
 }
 
-ResolvedDirections resolve(const FiberDirections& d) {
+ResolvedDirections resolveDirections(const FiberDirections& d) {
     const double h = d.h ? within(*d.h, -1.0, 1.0) : 0.0;
-    return {d.sinThetaI,
-            d.cosThetaI,
-            d.sinThetaO,
-            d.cosThetaO,
-            std::remainder(d.phi, 2.0 * std::numbers::pi),
-            std::cos(d.phi),
-            h,
-            std::sqrt((1.0 - h) * (1.0 + h))};
+    return {.sinI = d.sinThetaI,
+            .cosI = d.cosThetaI,
+            .sinO = d.sinThetaO,
+            .cosO = d.cosThetaO,
+            .phi = std::remainder(d.phi, 2.0 * std::numbers::pi),
+            .cosPhi = std::cos(d.phi),
+            .h = h,
+            .cosGamma = std::sqrt((1.0 - h) * (1.0 + h))};
 }
 
 double sigmaFromColor(double color, double betaN) {

@@ -2,17 +2,16 @@
 // The scattering models on rows of parameters, for measuring them where they are used. One invocation, one row.
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "packed_fiber.glsl"
+#include "scattering/models/models.glsl"
 
 layout(constant_id = 0) const int scatteringModel = 8;
 layout(constant_id = 1) const bool asPublished = false;
 layout(local_size_x = 64) in;
 
 struct Row {
-    vec4 directions;  // sin, cos of theta_i, sin, cos of theta_o
-    vec4 azimuth;     // phi, cos(phi), h, sqrt(1 - h^2)
-    PackedFiber fiber;
-    vec4 weights;    // bilinear, x and y
+    FiberAngles angles;
+    FiberMaterial fiber;
+    vec4 weights;     // bilinear, x and y
     vec4 texels[12];  // four of each layer of the moment table
 };
 struct Result {
@@ -30,20 +29,11 @@ void main() {
     uint i = gl_GlobalInvocationID.x;
     if (i >= uint(rows.length())) return;
     Row r = rows[i];
-    FiberAngles a;
-    a.sinI = r.directions.x;
-    a.cosI = r.directions.y;
-    a.sinO = r.directions.z;
-    a.cosO = r.directions.w;
-    a.phi = r.azimuth.x;
-    a.cosPhi = r.azimuth.y;
-    a.h = r.azimuth.z;
-    a.cosGamma = r.azimuth.w;
     FiberTable t;
     t.lobes = bilinear(r, 0);
     t.lengths = bilinear(r, 1);
     t.rest = bilinear(r, 2);
-    FiberLobes s = scatterFiber(scatteringModel, asPublished, a, unpackFiber(r.fiber), t);
+    FiberLobes s = scatterFiber(scatteringModel, asPublished, r.angles, r.fiber, t);
     results[i].lobe[0] = vec4(s.R, 0.0);
     results[i].lobe[1] = vec4(s.TT, 0.0);
     results[i].lobe[2] = vec4(s.TRT, 0.0);

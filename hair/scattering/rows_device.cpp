@@ -17,10 +17,12 @@ std::span<const std::uint32_t> embeddedShader(std::string_view name);
 
 namespace {
 
-// Row of scatter_rows.comp.
+using Vec4 = std::array<float, 4>;
+
+// Row of rows.comp.
 struct GpuRow {
-    Vec4 directions, azimuth;
-    PackedFiber fiber;
+    PackedAngles angles;
+    alignas(16) PackedFiber fiber;
     Vec4 weights;
     Vec4 texels[12];
 };
@@ -29,14 +31,11 @@ struct GpuResult {
 };
 
 GpuRow pack(const ScatterRow& row, MomentTable* table) {
-    const ResolvedDirections d = resolve(row.directions);
-    GpuRow r{};
-    r.directions = packed(d.sinI, d.cosI, d.sinO, d.cosO);
-    r.azimuth = packed(d.phi, d.cosPhi, d.h, d.cosGamma);
-    r.fiber = packed(resolve(row.fiber), row.directions.h.has_value());
+    const ResolvedDirections d = resolveDirections(row.directions);
+    GpuRow r{.angles = packed(d), .fiber = packed(resolveFiber(row.fiber, row.directions.h.has_value()))};
     if (table != nullptr) {
         const MomentTable::Sample s = table->sample(d.cosO, d.phi);
-        r.weights = packed(s.weightX, s.weightY, 0, 0);
+        r.weights = {static_cast<float>(s.weightX), static_cast<float>(s.weightY)};
         for (std::size_t i = 0; i < 12; ++i) r.texels[i] = s.texels[i / 4][i % 4];
     }
     return r;
@@ -49,7 +48,7 @@ constexpr std::size_t chunk = 16384;
 
 Result<std::vector<ScatteredLobes>> ScatterCompute::evaluate(ScatteringModel model, bool published,
                                                               std::span<const ScatterRow> rows) {
-    const auto code = detail::embeddedShader("scatter_rows.comp");
+    const auto code = detail::embeddedShader("rows.comp");
     auto module = device_.createShaderModule({.label = "scatter_rows", .code = {code.begin(), code.end()}});
     if (!module) return tl::unexpected(module.error());
     auto pipeline = device_.createComputePipeline(
@@ -58,7 +57,8 @@ Result<std::vector<ScatteredLobes>> ScatterCompute::evaluate(ScatteringModel mod
                      .constants = {{.name = "scatteringModel", .value = static_cast<double>(model)},
                                    {.name = "asPublished", .value = published ? 1.0 : 0.0}}}});
     if (!pipeline) return tl::unexpected(pipeline.error());
-    const bool usesTable = scatteringModels()[static_cast<std::size_t>(model)].usesTable;
+    const ModelInfo* info = findScatteringModel(model);
+    const bool usesTable = info && info->usesTable;
     std::map<std::pair<double, double>, MomentTable> tables;
 
     std::vector<ScatteredLobes> all;

@@ -17,56 +17,13 @@ using namespace glm;
 
 #include "scattering/models/models.glsl"
 
-real narrow(double x) { return static_cast<real>(x); }
-template <std::size_t n>
-glm::vec<n, real> narrow(const std::array<double, n>& x) {
-    glm::vec<n, real> y;
-    for (std::size_t i = 0; i < n; ++i) y[static_cast<glm::length_t>(i)] = static_cast<real>(x[i]);
-    return y;
-}
-
-FiberMaterial material(const ResolvedFiber& r, bool nearField) {
-    FiberMaterial m;
-    m.eta = narrow(r.eta);
-    m.etaExcess = narrow(r.etaExcess);
-    m.alpha = narrow(r.alpha);
-    m.betaM = narrow(r.betaM);
-    m.betaN = narrow(r.betaN);
-    m.inverseScale = narrow(r.inverseScale);
-    m.peak = narrow(r.peak);
-    m.sigmaA = narrow(r.sigmaA);
-    m.color = narrow(r.color);
-    m.inverseVariance = narrow(r.inverseVariance);
-    m.norm = narrow(r.norm);
-    m.deviation = narrow(r.deviation);
-    m.sinTilt = narrow(r.sinTilt);
-    m.cosTilt = narrow(r.cosTilt);
-    m.glint = narrow(r.glint);
-    m.offsetFit = real(0);
-    m.nearField = nearField ? real(1) : real(0);
-    return m;
-}
-
-FiberAngles angles(const ResolvedDirections& d) {
-    FiberAngles a;
-    a.sinI = narrow(d.sinI);
-    a.cosI = narrow(d.cosI);
-    a.sinO = narrow(d.sinO);
-    a.cosO = narrow(d.cosO);
-    a.phi = narrow(d.phi);
-    a.cosPhi = narrow(d.cosPhi);
-    a.h = narrow(d.h);
-    a.cosGamma = narrow(d.cosGamma);
-    return a;
-}
-
 FiberTable lookUp(const FiberDirections& d, MomentTable* table) {
     FiberTable t;
     t.lobes = t.lengths = t.rest = real4(0);
     if (table == nullptr) return t;
     const MomentTable::Sample s = table->sample(d.cosThetaO, d.phi);
     real4* layers[3] = {&t.lobes, &t.lengths, &t.rest};
-    const real wx = narrow(s.weightX), wy = narrow(s.weightY);
+    const real wx = static_cast<real>(s.weightX), wy = static_cast<real>(s.weightY);
     for (std::size_t layer = 0; layer < 3; ++layer) {
         const auto at = [&](std::size_t k) {
             const MomentTable::Texel& x = s.texels[layer][k];
@@ -82,8 +39,9 @@ FiberTable lookUp(const FiberDirections& d, MomentTable* table) {
 ScatteredLobes PELAGE_SCATTER(ScatteringModel model, bool published, const FiberProperties& fiber,
                               const FiberDirections& directions, MomentTable* table) {
     using namespace PELAGE_SHADING;
-    const FiberLobes s = scatterFiber(static_cast<int>(model), published, angles(resolve(directions)),
-                                      material(resolve(fiber), directions.h.has_value()), lookUp(directions, table));
+    const FiberLobes s = scatterFiber(
+        static_cast<int>(model), published, narrowed<FiberAngles>(resolveDirections(directions)),
+        narrowed<FiberMaterial>(resolveFiber(fiber, directions.h.has_value())), lookUp(directions, table));
     ScatteredLobes out;
     const real3* lobes[4] = {&s.R, &s.TT, &s.TRT, &s.RES};
     for (std::size_t p = 0; p < 4; ++p) {

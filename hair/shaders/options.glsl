@@ -27,7 +27,7 @@ layout(constant_id = 7) const bool lobeR = true;
 layout(constant_id = 8) const bool lobeTT = true;
 layout(constant_id = 9) const bool lobeTRT = true;
 layout(constant_id = 11) const bool lobeRES = true;
-layout(constant_id = 12) const int scatteringModel = 8;  // numbers of scattering/models.glsl
+layout(constant_id = 12) const int scatteringModel = 8;  // numbers of scattering_models.def
 layout(constant_id = 13) const bool asPublished = false;
 layout(constant_id = 14) const bool chiangColor = false;
 #define ATTENUATION_KARIS_H 0

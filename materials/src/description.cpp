@@ -84,7 +84,7 @@ PropertyDescription describeProperty(const json::Value& group, const json::Value
     out.visibleWhen = optionalWord(value, "visibleWhen");
     out.enabledWhen = optionalWord(value, "enabledWhen");
     out.groupVisibleWhen = optionalWord(group, "visibleWhen");
-    if (const json::Value* list = value.find("values")) out.wordsPlace = list->place;
+    if (const json::Value* list = value.find("values"); list && list->isString()) out.wordsOf = word(*list);
     if (const json::Value* connect = value.find("connect"); connect && !connect->members.empty())
         out.connect = PropertyDescription::Connect{connect->members[0].key, word(connect->members[0].value)};
     out.defaultValue = value.find("default");
@@ -102,8 +102,7 @@ OptionDescription describeOption(const Member& member) {
     if (const json::Value* list = value.find("values")) {
         out.option.type = ValueType::Enum;
         out.option.words = words(list);
-        out.wordsPlace = list->place;
-        out.option.max = static_cast<std::int64_t>(out.option.words.size()) - 1;
+        if (list->isString()) out.wordsOf = word(*list);
     } else if (text(value, "type") == "int") {
         out.option.type = ValueType::Int;
         out.option.min = whole(value, "min", 0);
@@ -172,10 +171,11 @@ VersionDescription describeVersion(const json::Value& value) {
         VersionDescription::Action& described = out.actions.emplace_back();
         described.whole = action.place;
         described.property = property.place;
-        described.action.kind = op == "rename"     ? Kind::Rename
-                                : op == "setValue" ? Kind::SetValue
-                                : op == "remove"   ? Kind::Remove
-                                                   : Kind::Remap;
+        described.action.kind = op == "rename"        ? Kind::Rename
+                                : op == "setValue"    ? Kind::SetValue
+                                : op == "remove"      ? Kind::Remove
+                                : op == "renameWords" ? Kind::RenameWords
+                                                      : Kind::Remap;
         described.action.property = property.string;
         if (const json::Value* to = action.find("to")) {
             described.action.to = to->string;
@@ -184,6 +184,10 @@ VersionDescription describeVersion(const json::Value& value) {
         if (const json::Value* set = action.find("value")) {
             described.action.value = *set;
             described.value = set->place;
+        }
+        if (const json::Value* renamed = action.find("words")) {
+            for (const Member& each : renamed->members) described.action.words[each.key] = each.value.string;
+            described.value = renamed->place;
         }
         if (const json::Value* scale = action.find("scale")) described.action.scale = scale->number;
         if (const json::Value* offset = action.find("offset")) described.action.offset = offset->number;

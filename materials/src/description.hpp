@@ -18,7 +18,7 @@ struct Word {
 struct PropertyDescription {
     Property property = {};
     Word name = {};
-    json::Place wordsPlace = {};
+    std::optional<Word> wordsOf = {};  // Functor.port instead of a list of words
     std::optional<Word> visibleWhen = {}, enabledWhen = {}, groupVisibleWhen = {};
     struct Connect {
         std::string kind = {};  // "input", "option", "shader"
@@ -37,7 +37,7 @@ struct InputDescription {
 struct OptionDescription {
     Option option = {};
     Word name = {};
-    json::Place wordsPlace = {};
+    std::optional<Word> wordsOf = {};  // Functor.port instead of a list of words
     const json::Value* defaultValue = nullptr;
 };
 
@@ -53,6 +53,7 @@ struct FunctorDescription {
     Word id = {}, type = {};
     struct Link {
         Word port = {}, target = {};
+        bool isNamed = true;  // false: made of "*": "input.*"
     };
     std::vector<Link> in = {}, out = {};
     json::Place inPlace = {}, outPlace = {};

@@ -100,8 +100,31 @@ void Linker::linkProperties() {
             error("M001", description.name.place, "second property named " + quoted(description.property.id),
                   "first at " + text(first->second));
         out_.properties.push_back(description.property);
+        if (description.wordsOf) out_.properties.back().words = wordsOf(*description.wordsOf);
     }
     propertyUsed_.assign(out_.properties.size(), false);
+}
+
+// The words of a functor's port, for an enum that names the port instead of repeating them.
+std::vector<std::string> Linker::wordsOf(const Word& at) {
+    const std::size_t dot = at.text.find('.');
+    const std::string functor = at.text.substr(0, dot), name = at.text.substr(dot + 1);
+    const FunctorType* type = registry_.find(functor);
+    if (!type) {
+        error("M020", at.place, "values: functor type " + quoted(functor) + " is not registered",
+              nameHint(functor, registry_.names()));
+        return {};
+    }
+    std::vector<std::string> known;
+    for (const std::vector<Port>* ports : {&type->in, &type->out}) {
+        for (const Port& port : *ports) {
+            if (port.name == name && !port.words.empty()) return port.words;
+            if (!port.words.empty()) known.push_back(port.name);
+        }
+    }
+    error("M021", at.place, "values: " + functor + " has no port " + quoted(name) + " with words",
+          nameHint(name, known));
+    return {};
 }
 
 void Linker::linkDefaults() {
@@ -184,8 +207,23 @@ void Linker::linkInputs() {
     std::size_t numbers = 0, textures = 0;
     for (const InputDescription& description : description_.inputs) {
         out_.inputs.push_back(description.input);
-        out_.inputSlots.push_back(isTexture(description.input.type) ? textures++ : numbers++);
+        inputPlaces_.push_back(description.name.place);
     }
+    // Those that "*": "input.*" makes.
+    for (const FunctorDescription& functor : description_.functors) {
+        const FunctorType* type = registry_.find(functor.type.text);
+        if (!type) continue;
+        for (const FunctorDescription::Link& link : outputsOf(functor, type->out)) {
+            if (link.isNamed || indexOfName(out_.inputs, link.port.text)) continue;
+            const std::size_t port = *indexOfName(type->out, link.port.text);
+            Input input;
+            input.name = link.port.text;
+            input.type = type->out[port].type;
+            out_.inputs.push_back(std::move(input));
+            inputPlaces_.push_back(link.port.place);
+        }
+    }
+    for (const Input& input : out_.inputs) out_.inputSlots.push_back(isTexture(input.type) ? textures++ : numbers++);
 }
 
 void Linker::linkOptions() {
@@ -193,6 +231,14 @@ void Linker::linkOptions() {
         Option option = description.option;
         const json::Value& value = *description.defaultValue;
         if (option.type == ValueType::Enum) {
+            if (description.wordsOf) {
+                option.words = wordsOf(*description.wordsOf);
+                if (option.words.empty()) {
+                    out_.options.push_back(std::move(option));
+                    continue;
+                }
+            }
+            option.max = static_cast<std::int64_t>(option.words.size()) - 1;
             const auto found = std::find(option.words.begin(), option.words.end(), value.string);
             if (found == option.words.end())
                 error("M008", value.place, quoted(value.string) + " is not a value of option " + quoted(option.name),
@@ -346,7 +392,7 @@ void Linker::reportUndriven() {
     };
     for (std::size_t i = 0; i < out_.inputs.size(); ++i) {
         if (!isDriven({Target::Kind::Input, i}))
-            error("M018", description_.inputs[i].name.place, "nothing drives input " + quoted(out_.inputs[i].name),
+            error("M018", inputPlaces_[i], "nothing drives input " + quoted(out_.inputs[i].name),
                   "connect a property or a functor output to it, or delete it");
     }
     for (std::size_t i = 0; i < out_.options.size(); ++i) {

@@ -168,6 +168,25 @@ bool Linker::outputFits(const FunctorDescription& description, const Port& port,
     return true;
 }
 
+// What is written under "out", with "*": "input.*" spelled out.
+std::vector<FunctorDescription::Link> Linker::outputsOf(const FunctorDescription& description,
+                                                        const std::vector<Port>& ports) const {
+    std::vector<FunctorDescription::Link> links;
+    for (const FunctorDescription::Link& link : description.out) {
+        if (link.port.text != "*") links.push_back(link);
+    }
+    const std::size_t written = links.size();
+    for (const FunctorDescription::Link& link : description.out) {
+        if (link.port.text != "*") continue;
+        for (const Port& port : ports) {
+            const auto isThis = [&](const FunctorDescription::Link& other) { return other.port.text == port.name; };
+            if (std::none_of(links.begin(), links.begin() + static_cast<std::ptrdiff_t>(written), isThis))
+                links.push_back({{port.name, link.port.place}, {"input." + port.name, link.target.place}, false});
+        }
+    }
+    return links;
+}
+
 bool Linker::linkFunctorOutputs(const FunctorDescription& description, FunctorUse& use) {
     bool fits = true;
     const std::vector<Port>& ports = use.type.out;
@@ -176,6 +195,11 @@ bool Linker::linkFunctorOutputs(const FunctorDescription& description, FunctorUs
     use.out.resize(ports.size());
     const std::string who = "functor " + quoted(description.id.text);
     for (const FunctorDescription::Link& link : description.out) {
+        if (link.port.text != "*" || link.target.text == "input.*") continue;
+        error("M026", link.target.place, who + ": \"*\" cannot drive " + quoted(link.target.text), "write input.*");
+        return false;
+    }
+    for (const FunctorDescription::Link& link : outputsOf(description, ports)) {
         const auto port = indexOfName(ports, link.port.text);
         if (!port) {
             error("M021", link.port.place, who + ": " + use.type.name + " has no output " + quoted(link.port.text),

@@ -3,6 +3,8 @@
 #include "convert.hpp"
 #include "linker.hpp"
 
+#include <algorithm>
+
 namespace pelage::materials {
 
 std::optional<Value> Linker::value(const json::Value& written, std::size_t property) {
@@ -66,6 +68,11 @@ void Linker::linkAction(const VersionDescription::Action& described, VersionStep
     if (action.kind == Kind::Remove) return;
     const std::string& name = action.kind == Kind::Rename ? action.to : action.property;
     const Followed now = follow(out_.versionSteps, name, action.value, step.to);
+    const auto opName = [&] {
+        return std::string(action.kind == Kind::Remap         ? "remap"
+                           : action.kind == Kind::RenameWords ? "renameWords"
+                                                              : "setValue");
+    };
     const auto property = out_.indexOf(now.name);
     const bool removedLater = now.removedIn > step.to;
     if (!property && !removedLater) {
@@ -73,10 +80,7 @@ void Linker::linkAction(const VersionDescription::Action& described, VersionStep
         if (action.kind == Kind::Rename) {
             error("M041", described.to, "rename leads to " + quoted(name) + ", which does not exist", hint);
         } else {
-            error("M043", described.property,
-                  (action.kind == Kind::Remap ? "remap" : "setValue") + std::string(" names unknown property ") +
-                      quoted(name),
-                  hint);
+            error("M043", described.property, opName() + " names unknown property " + quoted(name), hint);
         }
         return;
     }
@@ -92,6 +96,17 @@ void Linker::linkAction(const VersionDescription::Action& described, VersionStep
                 error("M044", described.property,
                       "remap of " + quoted(name) + ", which is " + std::string(materials::name(type)),
                       "only float to float4 can be remapped");
+        }
+    } else if (action.kind == Kind::RenameWords && property) {
+        const Property& renamed = out_.properties[*property];
+        for (const auto& [from, to] : action.words) {
+            json::Value word = action.value;
+            word.kind = json::Kind::String;
+            word.string = to;
+            const std::string last = follow(out_.versionSteps, name, std::move(word), step.to).value.string;
+            if (std::find(renamed.words.begin(), renamed.words.end(), last) == renamed.words.end())
+                error("M044", described.value, "renameWords: " + quoted(last) + " is not a value of " + quoted(name),
+                      nameHint(last, renamed.words));
         }
     } else if (action.kind == Kind::SetValue && property && !removedLater) {
         if (const std::optional<Value> value = this->value(now.value, *property))

@@ -21,6 +21,7 @@ public:
 private:
     // link.cpp
     void linkProperties();
+    std::vector<std::string> wordsOf(const Word& port);
     void linkDefaults();
     void linkConditions();
     void linkInputs();
@@ -36,6 +37,8 @@ private:
     void linkFunctors();
     void linkFunctor(const FunctorDescription& description);
     bool linkFunctorInputs(const FunctorDescription& description, FunctorUse& use);
+    std::vector<FunctorDescription::Link> outputsOf(const FunctorDescription& description,
+                                                    const std::vector<Port>& ports) const;
     bool linkFunctorOutputs(const FunctorDescription& description, FunctorUse& use);
     std::optional<Target> outputTarget(const FunctorDescription& description, const Port& port, const Word& target);
     bool outputFits(const FunctorDescription& description, const Port& port, const Word& word, const Target& target);
@@ -64,6 +67,7 @@ private:
         json::Place place = {};
     };
     std::vector<Driver> drivers_ = {};
+    std::vector<json::Place> inputPlaces_ = {};
     std::vector<bool> propertyUsed_ = {};
 };
 

@@ -28,6 +28,13 @@ Followed follow(const std::vector<VersionStep>& steps, std::string name, json::V
                     remap(out.value, action);
                     out.remapped = true;
                     break;
+                case VersionAction::Kind::RenameWords:
+                    if (const auto word = action.words.find(out.value.string);
+                        version < step.to && out.value.isString() && word != action.words.end()) {
+                        out.value.string = word->second;
+                        out.remapped = true;
+                    }
+                    break;
                 case VersionAction::Kind::Remove:
                     out.removedIn = step.to;
                     return out;

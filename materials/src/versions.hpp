@@ -5,17 +5,19 @@
 #include <pelage/base/json.hpp>
 #include <pelage/materials/value.hpp>
 
+#include <map>
 #include <string>
 #include <vector>
 
 namespace pelage::materials {
 
 struct VersionAction {
-    enum class Kind : std::uint8_t { Rename, SetValue, Remove, Remap } kind = Kind::Rename;
-    std::string property = {};  // as it was called then
-    std::string to = {};        // Rename
-    json::Value value = {};     // SetValue, in the terms of the step's version
-    double scale = 1, offset = 0;
+    enum class Kind : std::uint8_t { Rename, SetValue, Remove, Remap, RenameWords } kind = Kind::Rename;
+    std::string property = {};                      // as it was called then
+    std::string to = {};                            // Rename
+    json::Value value = {};                         // SetValue, in the terms of the step's version
+    double scale = 1, offset = 0;                   // Remap
+    std::map<std::string, std::string> words = {};  // RenameWords: old to new
 };
 
 /// A setValue, followed to the present.
@@ -39,8 +41,8 @@ struct Followed {
     bool remapped = false;
 };
 
-/// Renames hold for files of every version; remap and remove only for files older than their step. A file may still
-/// state, by mistake, what its own version had removed already: then `removedIn` is not above `version`.
+/// Renames of properties hold for files of every version; the others only for files older than their step. A file may
+/// still state, by mistake, what its own version had removed already: then `removedIn` is not above `version`.
 Followed follow(const std::vector<VersionStep>& steps, std::string name, json::Value value, int version);
 
 }  // namespace pelage::materials

@@ -85,7 +85,7 @@ Result<void> countCosts(AccuracyResult& result) {
 Result<void> drawPlots(AccuracyResult& result, const fs::path& images) {
     const auto models = [](std::initializer_list<hair::ScatteringModel> wanted) {
         std::vector<const hair::ModelInfo*> found;
-        for (const auto model : wanted) found.push_back(&hair::scatteringModels()[static_cast<std::size_t>(model)]);
+        for (const auto model : wanted) found.push_back(hair::findScatteringModel(model));
         return found;
     };
     const auto fitted = models({KajiyaKay, Scheuermann, Marschner, Karis, Thesis, Gerard, MomentLut});

@@ -97,7 +97,7 @@ Result<std::vector<RoundingResult>> roundingOf(Workers& workers, const DeviceOpt
                                                 const AccuracyEffort& effort) {
     std::vector<RoundingResult> results;
     for (const auto model : {hair::ScatteringModel::Chiang, hair::ScatteringModel::MomentLut}) {
-        const ModelForm form{&hair::scatteringModels()[static_cast<std::size_t>(model)], false};
+        const ModelForm form{hair::findScatteringModel(model), false};
         const bool nearField = !form.info->usesTable;
         for (const RoundingBand& band : bands) {
             const auto rows = bandRows(band, nearField, nearField ? effort.nearRows : effort.tableRows);

@@ -8,6 +8,8 @@
 #include "gpu.hpp"
 #include "stage.hpp"
 
+#include <pelage/hair/scattering.hpp>
+
 #include <algorithm>
 #include <cstdio>
 #include <fstream>
@@ -16,30 +18,29 @@ namespace pelage::app {
 
 namespace {
 
-/// A shading model: a shipped material in brown, and where that is `hair`, its scattering.model.
+/// A shading model: a shipped material, and where that is `hair`, its scattering.model.
 struct Contender {
-    const char* name;
-    const char* material;
-    const char* model;
+    std::string_view name;
+    std::string_view material;
+    const hair::ModelInfo* model = nullptr;
 };
-constexpr Contender known[] = {{"moment_lut", "brown", "momentLut"},
-                               {"segment_cdf", "brown", "segmentCdf"},
-                               {"chiang", "brown", "chiang"},
-                               {"pxr", "brown", "pxr"},
-                               {"karis", "brown", "karis"},
-                               {"thesis", "brown", "thesis"},
-                               {"marschner", "brown", "marschner"},
-                               {"gerard", "brown", "gerard"},
-                               {"scheuermann", "brown", "scheuermann"},
-                               {"kajiya_kay", "kajiya_brown", ""},
-                               {"standard_pbr", "pbr_brown", ""}};
+/// What is a material type of its own, kajiya_kay among them.
+constexpr Contender ownTypes[] = {{"kajiya_kay", "kajiya_brown"}, {"standard_pbr", "pbr_brown"}};
+
+std::vector<Contender> contenders() {
+    std::vector<Contender> all(std::begin(ownTypes), std::end(ownTypes));
+    for (const hair::ModelInfo& info : hair::scatteringModels()) {
+        if (info.id != ownTypes[0].name) all.push_back({info.id, "brown", &info});
+    }
+    return all;
+}
 
 Result<std::vector<Contender>> choose(const std::vector<std::string>& names) {
+    const std::vector<Contender> known = contenders();
     std::vector<Contender> chosen;
     for (const std::string& name : names) {
-        const auto found =
-            std::find_if(std::begin(known), std::end(known), [&](const auto& c) { return name == c.name; });
-        if (found == std::end(known)) {
+        const auto found = std::find_if(known.begin(), known.end(), [&](const auto& c) { return name == c.name; });
+        if (found == known.end()) {
             std::string all;
             for (const Contender& contender : known) all += (all.empty() ? "" : ", ") + std::string(contender.name);
             return tl::unexpected(failure("A063", "no shading model \"" + name + "\" to bench; there are " + all));
@@ -64,17 +65,17 @@ struct Samples {
 
 /// The material of a contender, on all hair of the scene where one is given.
 Result<materials::Material> materialOf(const Contender& contender, hair::Library& library) {
-    auto parsed = library.material(contender.material);
+    auto parsed = library.material(std::string(contender.material));
     if (!parsed) return tl::unexpected(parsed.error());
-    if (*contender.model != '\0') {
-        const Diagnostics found = parsed->material.setFromText("scattering.model", contender.model);
+    if (contender.model) {
+        const Diagnostics found = parsed->material.setFromText("scattering.model", contender.model->id);
         if (found.hasErrors()) return tl::unexpected(found);
     }
     return std::move(parsed->material);
 }
 
 ModelResult summarise(const Contender& contender, const Samples& samples) {
-    ModelResult result{.name = contender.name, .material = contender.material};
+    ModelResult result{.name = std::string(contender.name), .material = std::string(contender.material)};
     const hair::FrameReport& last = samples.frames.back();
     for (std::size_t pass = 0; pass < last.passes.size(); ++pass) {
         std::vector<double> times;
@@ -106,8 +107,8 @@ Result<void> measure(std::vector<Samples>& all, hair::Renderer& renderer, const 
 
 int bench(const BenchOptions& options) {
     hair::Library library(dataDirectory());
-    auto contenders = choose(options.models);
-    if (!contenders) return report(contenders.error());
+    auto chosen = choose(options.models);
+    if (!chosen) return report(chosen.error());
     auto stage = makeStage(options.stage, library);
     if (!stage) return report(stage.error());
 
@@ -115,9 +116,9 @@ int bench(const BenchOptions& options) {
                        .width = stage->file.frame.width,
                        .height = stage->file.frame.height,
                        .repeats = options.repeat,
-                       .yardstick = contenders->front().name};
+                       .yardstick = std::string(chosen->front().name)};
     std::vector<Samples> all;
-    for (const Contender& contender : *contenders) {
+    for (const Contender& contender : *chosen) {
         Samples samples{.scene = stage->file.scene};
         auto material = materialOf(contender, library);
         if (!material) return report(material.error());
@@ -136,11 +137,11 @@ int bench(const BenchOptions& options) {
     if (auto measured = measure(all, *renderer, stage->file.frame, options.repeat); !measured) {
         return report(measured.error());
     }
-    for (std::size_t i = 0; i < all.size(); ++i) result.models.push_back(summarise((*contenders)[i], all[i]));
-    for (const Contender& contender : *contenders) {
+    for (std::size_t i = 0; i < all.size(); ++i) result.models.push_back(summarise((*chosen)[i], all[i]));
+    for (const Contender& contender : *chosen) {
         auto material = materialOf(contender, library);
         if (!material) return report(material.error());
-        if (auto counted = countOptions(contender.name, *material, result.instructions); !counted) {
+        if (auto counted = countOptions(std::string(contender.name), *material, result.instructions); !counted) {
             return report(counted.error());
         }
     }

@@ -42,13 +42,7 @@ hair::Scene sceneOf(const materials::Material& material, double thetaI, double p
 // L_o = S E_perp, end to end: material file, functors, uniform block, table texture, shader, resolve. Against the C++
 // double build of the model; targets hold 11 bits, and the corner pixel is 1e-4 rad off the axis of the camera.
 TEST_F(Scattering, RadianceIsWhatTheModelSays) {
-    const std::pair<const char*, hair::ScatteringModel> models[] = {{"momentLut", hair::ScatteringModel::MomentLut},
-                                                                    {"segmentCdf", hair::ScatteringModel::SegmentCdf},
-                                                                    {"pxr", hair::ScatteringModel::Pxr},
-                                                                    {"karis", hair::ScatteringModel::Karis},
-                                                                    {"thesis", hair::ScatteringModel::Thesis},
-                                                                    {"gerard", hair::ScatteringModel::Gerard},
-                                                                    {"marschner", hair::ScatteringModel::Marschner}};
+    using enum hair::ScatteringModel;
     hair::FiberProperties fiber;
     fiber.eta = 1.5;
     fiber.betaM = 0.3;
@@ -56,7 +50,8 @@ TEST_F(Scattering, RadianceIsWhatTheModelSays) {
     fiber.alpha = -3 * degree;
     fiber.sigmaA = {0.2, 0.4, 0.9};
     hair::MomentTable table(fiber.eta, fiber.betaN);
-    for (const auto& [word, model] : models) {
+    for (const hair::ScatteringModel model : {MomentLut, SegmentCdf, Pxr, Karis, Thesis, Gerard, Marschner}) {
+        const std::string word(hair::findScatteringModel(model)->id);
         const materials::Material hair = material("brown", {{"blending.mode", "opaque"},
                                                             {"surface.useStrandId", "false"},
                                                             {"shadowing.mode", "off"},
@@ -107,8 +102,8 @@ TEST_F(Scattering, TheTableFollowsTheMaterial) {
 
 // A light of 10^8 W/sr on the hair itself and beside it, tangents of length 0, 1e-20 and 1e20: every pixel is a number.
 TEST_F(Scattering, LightsAndTangentsBeyondReasonGiveNumbers) {
-    for (const char* model : {"momentLut", "segmentCdf", "chiang", "pxr", "karis", "thesis", "marschner", "gerard",
-                              "scheuermann", "kajiyaKay"}) {
+    for (const hair::ModelInfo& info : hair::scatteringModels()) {
+        const std::string model(info.id);
         hair::Scene scene =
             sceneOf(material("brown", {{"scattering.model", model}, {"blending.mode", "opaque"}}), 0, 0, 0);
         scene.objects[0].geometry = card({{0, 0, 0}, {1e-20F, 0, 0}, {1e20F, 0, 0}, {1, 0, 0}});

@@ -1,173 +1,376 @@
 // SPDX-License-Identifier: MIT
-// What the functors compute, checked against quadrature and closed forms that are not theirs.
+// What the functors compute: every output of every functor of hair against a closed form written here.
 #include "support.hpp"
+
+#include <pelage/hair/scattering.hpp>
 
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 using namespace pelage;
 using namespace pelage::materials;
 
 namespace {
 
-FunctorOutputs run(std::string_view name, const std::vector<Value>& in) {
+using Values = std::map<std::string, Value>;
+
+struct Outputs {
+    Values values = {};
+    std::map<std::string, StateOverlay> states = {};
+};
+
+Value word(std::string text) {
+    return {ValueType::Enum, {}, -1, std::move(text)};
+}
+Value float4(double x, double y, double z, double w) {
+    return {ValueType::Float4,
+            {static_cast<float>(x), static_cast<float>(y), static_cast<float>(z), static_cast<float>(w)},
+            0,
+            {}};
+}
+Value scalar(double x) {
+    return Value::scalar(static_cast<float>(x));
+}
+
+// Of inputs by name; words get the index that they have at their port.
+Outputs run(const std::string& name, Values in) {
     const FunctorRegistry registry = hair::functorRegistry();
     const FunctorType* type = registry.find(name);
-    FunctorOutputs out;
     if (!type) {
         ADD_FAILURE() << "no functor " << name;
-        return out;
+        return {};
     }
-    EXPECT_EQ(type->in.size(), in.size());
-    type->run(in, out);
-    return out;
-}
-
-double scalar(const FunctorOutputs& out, std::size_t port) {
-    return static_cast<double>(out.values().at(port).number[0]);
-}
-
-}  // namespace
-
-TEST(Functors, KajiyaHighlightReflectsItsWeight) {
-    for (const float exponent : {1.0F, 10.0F, 80.0F, 1000.0F}) {
-        const FunctorOutputs out =
-            run("KajiyaSpecular", {Value::boolean(true), Value::scalar(exponent), Value::scalar(0.5F)});
-        const double p = static_cast<double>(exponent), norm = scalar(out, 1);
-        constexpr int steps = 20000;
-        double integral = 0;  // of cos(theta)^p cos(theta) over theta and phi, midpoint rule
-        for (int i = 0; i < steps; ++i) {
-            const double theta = std::numbers::pi * ((i + 0.5) / steps - 0.5);
-            integral += std::pow(std::cos(theta), p + 1.0);
+    std::vector<Value> ordered;
+    for (const Port& port : type->in) {
+        const auto given = in.find(port.name);
+        if (given == in.end()) {
+            ADD_FAILURE() << name << " has an input " << port.name;
+            return {};
         }
-        integral *= 2.0 * std::numbers::pi * std::numbers::pi / steps;
-        EXPECT_NEAR(integral * norm, 1.0, 1e-6) << exponent;
-        if (exponent == 10.0F) {
-            EXPECT_NEAR(1.0 / norm, 4.64, 0.005);
+        Value& value = ordered.emplace_back(given->second);
+        EXPECT_EQ(value.type, port.type) << name << "." << port.name;
+        if (value.type == ValueType::Enum) {
+            const auto found = std::find(port.words.begin(), port.words.end(), value.text);
+            EXPECT_NE(found, port.words.end()) << name << "." << port.name << " has no word " << value.text;
+            value.integer = found - port.words.begin();
         }
-        if (exponent == 80.0F) {
-            EXPECT_NEAR(1.0 / norm, 1.74, 0.005);
-        }
-        EXPECT_EQ(scalar(out, 2), 0.5);
+        in.erase(given);
     }
-    EXPECT_EQ(scalar(run("KajiyaSpecular", {Value::boolean(false), Value::scalar(9), Value::scalar(1)}), 2), 0.0);
+    for (const auto& [unknown, value] : in) ADD_FAILURE() << name << " has no input " << unknown;
+    FunctorOutputs out;
+    type->run(ordered, out);
+    Outputs named;
+    for (const auto& [index, value] : out.values()) named.values.emplace(type->out.at(index).name, value);
+    for (const auto& [index, state] : out.states()) named.states.emplace(type->out.at(index).name, state);
+    return named;
 }
 
-namespace {
-// Inputs of FiberShape: model, index, roughnesses, tilt, widths, shifts, glint, boost for the environment.
-std::vector<Value> shape(std::int64_t model, float betaM, float betaN, float tilt, float boost) {
-    return {{ValueType::Enum, {}, model, {}},
-            Value::scalar(1.55F),
-            Value::scalar(betaM),
-            Value::scalar(betaN),
-            Value::scalar(tilt),
-            Value::float3(1, 1, 1),
-            Value::float3(0, 0, 0),
-            Value::scalar(0),
-            Value::scalar(5),
-            Value::scalar(0),
-            Value::scalar(boost)};
-}
-}  // namespace
-
-// Chiang 2016 (7): v0 = (0.726 b + 0.812 b^2 + 3.7 b^20)^2, v0 / 4, 4 v0; tilts -2, 1, 4 alpha on theta_o.
-TEST(Functors, LobesHaveChiangsWidthsAndTilts) {
-    const FunctorOutputs out = run("FiberShape", shape(8, 0.3F, 0.3F, -3.0F, 0.2F));
-    const auto& inverse = out.values().at(2).number;
-    const float root = 0.726F * 0.3F + 0.812F * 0.09F;
-    EXPECT_NEAR(1 / inverse[0], root * root, 1e-6F);
-    EXPECT_NEAR(inverse[1] / inverse[0], 4, 1e-5F);
-    EXPECT_NEAR(inverse[2] / inverse[0], 0.25F, 1e-6F);
-    EXPECT_NEAR(out.values().at(5).number[0], std::sin(6 * std::numbers::pi_v<float> / 180), 1e-6F);
-    EXPECT_NEAR(out.values().at(5).number[2], -std::sin(12 * std::numbers::pi_v<float> / 180), 1e-6F);
-    EXPECT_LT(out.values().at(8).number[0], inverse[0]) << "wider for the environment";
-    EXPECT_EQ(out.values().at(11).text, "moments:1.55,0.3");
-    EXPECT_EQ(run("FiberShape", shape(3, 0.3F, 0.3F, 0, 0)).values().at(11).text, "moments:none") << "karis";
+void expectValue(const Value& found, const Value& expected, const std::string& where) {
+    EXPECT_EQ(found.type, expected.type) << where;
+    EXPECT_EQ(found.text, expected.text) << where;
+    if (expected.type != ValueType::Enum) {
+        EXPECT_EQ(found.integer, expected.integer) << where;
+    }
+    for (std::size_t i = 0; i < 4; ++i) {
+        const float tolerance = 1e-6F * std::max(std::abs(expected.number[i]), 1e-6F);
+        EXPECT_NEAR(found.number[i], expected.number[i], tolerance) << where << " [" << i << "]";
+    }
 }
 
-// exp(-4 sigma) = C in the shader, or here: pigments by their constants, and Chiang's fit of ln C.
-TEST(Functors, AbsorptionComesFromOneSource) {
-    const auto color = [](std::int64_t mode) {
-        return std::vector<Value>{{ValueType::Enum, {}, mode, {}},
-                                  Value::color(0.5F, 0.4F, 0.3F),
-                                  Value::texture("a.png"),
-                                  Value::boolean(true),
-                                  Value::scalar(2),
-                                  Value::scalar(1),
-                                  Value::float3(0.1F, 0.2F, 0.3F),
-                                  Value::scalar(0.3F)};
+struct Case {
+    std::string functor, what;
+    Values in, out;
+};
+
+void expectAll(const Case& row) {
+    const Outputs found = run(row.functor, row.in);
+    std::set<std::string> made, expected;
+    for (const auto& [name, value] : found.values) made.insert(name);
+    for (const auto& [name, value] : row.out) expected.insert(name);
+    EXPECT_EQ(made, expected) << row.functor << ", " << row.what;
+    for (const auto& [name, value] : row.out) {
+        const auto it = found.values.find(name);
+        if (it != found.values.end()) expectValue(it->second, value, row.functor + "." + name + ", " + row.what);
+    }
+}
+
+const Value on = Value::boolean(true), off = Value::boolean(false);
+constexpr double degree = std::numbers::pi / 180;
+
+// FiberColor: all with the same inputs but the mode and what a case is about.
+Case color(std::string mode, std::string what, const Values& inputs, const Values& outputs) {
+    Values in{{"mode", word(std::move(mode))},   {"color", Value::color(0.5F, 0.4F, 0.3F)},
+              {"map", Value::texture("a.png")},  {"useMap", on},
+              {"eumelanin", Value::scalar(2)},   {"pheomelanin", Value::scalar(0.5F)},
+              {"sigma", Value::float3(1, 2, 3)}, {"betaN", Value::scalar(0.4F)}};
+    for (const auto& [name, value] : inputs) in[name] = value;
+    // Chiang et al. 2016, equation 9, at beta_N 0.4.
+    const double b = 0.4;
+    const double fit =
+        5.969 - 0.215 * b + 2.532 * b * b - 10.73 * b * b * b + 5.574 * std::pow(b, 4) + 0.245 * std::pow(b, 5);
+    Values out{{"color", in["color"]},   {"map", in["map"]}, {"useMap", on}, {"sigma", Value::float3(0, 0, 0)},
+               {"fit", scalar(1 / fit)}, {"chiang", off}};
+    for (const auto& [name, value] : outputs) out[name] = value;
+    return {"FiberColor", std::move(what), in, out};
+}
+
+// Chiang et al. 2016, equation 7 (R) and its quarter and four times; d'Eon et al. 2011 for the norm.
+struct Lobe {
+    double variance;
+    double inverse() const { return 1 / variance; }
+    double norm() const { return 1 / (variance * (1 - std::exp(-2 / variance))); }
+    double deviation() const { return std::sqrt(variance); }
+};
+std::array<Lobe, 4> lobes(double betaM, const std::array<double, 3>& widths) {
+    const double v = std::pow(0.726 * betaM + 0.812 * betaM * betaM + 3.7 * std::pow(betaM, 20), 2);
+    return {Lobe{v * widths[0] * widths[0]}, Lobe{v / 4 * widths[1] * widths[1]}, Lobe{4 * v * widths[2] * widths[2]},
+            Lobe{4 * v}};
+}
+
+Case shape(const std::string& model, double boost) {
+    const double eta = 1.5, betaM = 0.4, betaN = 0.25, tilt = -3;
+    const bool isPxr = model == "pxr";
+    const std::array<double, 3> widths = isPxr ? std::array{1.5, 0.5, 2.0} : std::array{1.0, 1.0, 1.0};
+    const std::array<double, 3> shifts = isPxr ? std::array{1.0, -2.0, 3.0} : std::array{0.0, 0.0, 0.0};
+    // Equation 8, and the logistic trimmed to one turn.
+    const double s =
+        std::sqrt(std::numbers::pi / 8) * (0.265 * betaN + 1.194 * betaN * betaN + 5.372 * std::pow(betaN, 22));
+    const auto narrow = lobes(betaM, widths), wide = lobes(std::min(betaM + std::max(boost, 0.0), 1.0), widths);
+    const auto each = [](const std::array<Lobe, 4>& of, double (Lobe::*value)() const) {
+        return float4((of[0].*value)(), (of[1].*value)(), (of[2].*value)(), (of[3].*value)());
     };
-    const auto path = run("FiberColor", color(0)), mass = run("FiberColor", color(1));
-    EXPECT_EQ(path.values().at(3).number[0], 0) << "all of it is made in the shader";
-    EXPECT_EQ(path.values().at(5).integer, 0);
-    EXPECT_EQ(mass.values().at(5).integer, 1);
-    EXPECT_NEAR(scalar(mass, 4), 1 / 5.88842, 1e-4);
-    EXPECT_EQ(scalar(mass, 0), 0.5F);
-    const auto melanin = run("FiberColor", color(2)), sigma = run("FiberColor", color(3));
-    EXPECT_NEAR(melanin.values().at(3).number[2], 2 * 1.37F + 1.05F, 1e-5F);
-    EXPECT_EQ(scalar(melanin, 0), 1) << "white: its map alone is left of the base colour";
-    EXPECT_EQ(sigma.values().at(3).number[1], 0.2F);
+    const double r = (-2 * tilt + shifts[0]) * degree, tt = (tilt + shifts[1]) * degree,
+                 trt = (4 * tilt + shifts[2]) * degree;
+    const bool hasTable = isPxr || model == "moment_lut" || model == "gerard";
+    return {"FiberShape",
+            model,
+            {{"model", word(model)},
+             {"ior", scalar(eta)},
+             {"betaM", scalar(betaM)},
+             {"betaN", scalar(betaN)},
+             {"tiltDeg", scalar(tilt)},
+             {"widths", Value::float3(1.5F, 0.5F, 2)},
+             {"shifts", Value::float3(1, -2, 3)},
+             {"glintGain", scalar(0.75)},
+             {"glintWidth", scalar(8)},
+             {"glintShift", scalar(6)},
+             {"envBoost", scalar(boost)}},
+            {{"eta", scalar(eta)},
+             {"etaExcess", scalar(1.25)},
+             {"alpha", scalar(tilt * degree)},
+             {"betaN", scalar(betaN)},
+             {"inverseScale", scalar(1 / s)},
+             {"peak", scalar(1 / (s * std::tanh(std::numbers::pi / (2 * s))))},
+             {"inverseVariance", each(narrow, &Lobe::inverse)},
+             {"norm", each(narrow, &Lobe::norm)},
+             {"deviation", each(narrow, &Lobe::deviation)},
+             {"sinTilt", float4(std::sin(r), std::sin(tt), std::sin(trt), 0)},
+             {"cosTilt", float4(std::cos(r), std::cos(tt), std::cos(trt), 1)},
+             {"glint", float4(0.75, 1 / (8 * degree), std::cos(6 * degree), std::sin(6 * degree))},
+             {"inverseVarianceWide", each(wide, &Lobe::inverse)},
+             {"normWide", each(wide, &Lobe::norm)},
+             {"deviationWide", each(wide, &Lobe::deviation)},
+             {"table", Value::texture(hasTable ? "moments:1.5,0.25" : "moments:none")}}};
 }
 
-TEST(Functors, WeightZeroTurnsTheLobeOff) {
-    const auto on = [](bool value) { return Value::boolean(value); };
-    const Value white = Value::color(1, 1, 1);
-    const FunctorOutputs out = run("LobeWeights", {on(true), Value::scalar(0), white, on(false), Value::scalar(1),
-                                                   white, on(true), Value::scalar(0.5F), Value::color(1, 0.5F, 0),
-                                                   on(true), Value::scalar(1), Value::color(0, 0, 0)});
-    for (const std::size_t off : {4U, 5U, 7U}) EXPECT_EQ(out.values().at(off).integer, 0);
-    EXPECT_EQ(out.values().at(6).integer, 1);
-    EXPECT_EQ(out.values().at(2).number, (std::array<float, 4>{0.5F, 0.25F, 0, 1}));
+Case kajiya(bool enable, double exponent) {
+    // The integral of cos^p(theta) cos(theta) over theta and phi, midpoint rule.
+    constexpr int steps = 20000;
+    double integral = 0;
+    for (int i = 0; i < steps; ++i) {
+        const double theta = std::numbers::pi * ((i + 0.5) / steps - 0.5);
+        integral += std::pow(std::cos(theta), exponent + 1.0);
+    }
+    integral *= 2.0 * std::numbers::pi * std::numbers::pi / steps;
+    return {"KajiyaSpecular",
+            "exponent " + std::to_string(exponent),
+            {{"enable", Value::boolean(enable)}, {"exponent", scalar(exponent)}, {"weight", scalar(0.25)}},
+            {{"exponent", scalar(exponent)}, {"norm", scalar(1 / integral)}, {"weight", scalar(enable ? 0.25 : 0)}}};
 }
 
-TEST(Functors, FresnelShadowEnvironmentAmbientAndStrands) {
-    const FunctorOutputs fresnel = run("FresnelFromIor", {Value::scalar(1.55F)});
-    EXPECT_NEAR(scalar(fresnel, 0), 0.0465, 1e-4);
-    EXPECT_FLOAT_EQ(fresnel.values().at(1).number[0], 1.55F);
+std::vector<Case> cases() {
+    const Value map = Value::texture("ids.png"), white = Value::color(1, 1, 1);
+    std::vector<Case> all{
+        color("pathColor", "made in the shader", {}, {}),
+        color("pathColor", "map off", {{"useMap", off}}, {{"useMap", off}}),
+        color("pathColor", "no map", {{"map", Value::texture("")}}, {{"map", Value::texture("")}, {"useMap", off}}),
+        color("pathColor", "white map", {{"map", Value::texture("builtin.white")}},
+              {{"useMap", off}, {"map", Value::texture("builtin.white")}}),
+        color("color", "by Chiang's law", {}, {{"chiang", on}}),
+        // Constants of pbrt after d'Eon et al. 2011; two parts of eumelanin, half a part of pheomelanin.
+        color("melanin", "pigments", {},
+              {{"color", white}, {"sigma", Value::float3(0.838F + 0.0935F, 1.394F + 0.2F, 2.74F + 0.525F)}}),
+        color("melanin", "red pigment", {{"eumelanin", Value::scalar(0)}, {"pheomelanin", Value::scalar(1)}},
+              {{"color", white}, {"sigma", Value::float3(0.187F, 0.4F, 1.05F)}}),
+        color("sigma", "as it is", {}, {{"color", white}, {"sigma", Value::float3(1, 2, 3)}}),
+        color("sigma", "in its range", {{"sigma", Value::float3(-1, 2e4F, 3)}},
+              {{"color", white}, {"sigma", Value::float3(0, 1e4F, 3)}}),
+        {"LobeWeights",
+         "one off by weight, one by its switch, one by its tint",
+         {{"enableR", on},
+          {"weightR", scalar(0)},
+          {"tintR", white},
+          {"enableTT", off},
+          {"weightTT", scalar(1)},
+          {"tintTT", white},
+          {"enableTRT", on},
+          {"weightTRT", scalar(0.5)},
+          {"tintTRT", Value::color(1, 0.5F, 0)},
+          {"enableRES", on},
+          {"weightRES", scalar(1)},
+          {"tintRES", Value::color(0, 0, 0)}},
+         {{"gainR", Value::color(0, 0, 0)},
+          {"gainTT", Value::color(0, 0, 0)},
+          {"gainTRT", Value::color(0.5F, 0.25F, 0)},
+          {"gainRES", Value::color(0, 0, 0)},
+          {"onR", off},
+          {"onTT", off},
+          {"onTRT", on},
+          {"onRES", off}}},
+        {"LobeWeights",
+         "all on; a weight below zero",
+         {{"enableR", on},
+          {"weightR", scalar(2)},
+          {"tintR", Value::color(0.1F, 0.2F, 0.3F)},
+          {"enableTT", on},
+          {"weightTT", scalar(3)},
+          {"tintTT", Value::color(0, 0.5F, 0)},
+          {"enableTRT", on},
+          {"weightTRT", scalar(-1)},
+          {"tintTRT", white},
+          {"enableRES", on},
+          {"weightRES", scalar(1)},
+          {"tintRES", Value::color(0, 0, 0.25F)}},
+         {{"gainR", Value::color(0.2F, 0.4F, 0.6F)},
+          {"gainTT", Value::color(0, 1.5F, 0)},
+          {"gainTRT", Value::color(0, 0, 0)},
+          {"gainRES", Value::color(0, 0, 0.25F)},
+          {"onR", on},
+          {"onTT", on},
+          {"onTRT", off},
+          {"onRES", on}}},
+        kajiya(true, 1),
+        kajiya(true, 10),
+        kajiya(true, 80),
+        kajiya(false, 1000),
+        {"StrandIdVariation",
+         "on",
+         {{"map", map}, {"useMap", on}, {"amount", scalar(0.25)}},
+         {{"map", map}, {"useMap", on}, {"amplitude", scalar(0.25)}}},
+        {"StrandIdVariation",
+         "off",
+         {{"map", map}, {"useMap", off}, {"amount", scalar(0.25)}},
+         {{"map", map}, {"useMap", off}, {"amplitude", scalar(0)}}},
+        {"StrandIdVariation",
+         "of nothing",
+         {{"map", map}, {"useMap", on}, {"amount", scalar(-1)}},
+         {{"map", map}, {"useMap", off}, {"amplitude", scalar(0)}}},
+        {"EnvironmentScale", "on", {{"enable", on}, {"intensity", scalar(2)}}, {{"on", on}, {"scale", scalar(2)}}},
+        {"EnvironmentScale", "off", {{"enable", off}, {"intensity", scalar(2)}}, {{"on", off}, {"scale", scalar(0)}}},
+        {"EnvironmentScale", "dark", {{"enable", on}, {"intensity", scalar(0)}}, {{"on", off}, {"scale", scalar(0)}}},
+        {"ConstantScatter",
+         "on",
+         {{"mode", word("constant")}, {"factor", scalar(0.5)}},
+         {{"on", on}, {"amount", scalar(0.5)}}},
+        {"ConstantScatter",
+         "off",
+         {{"mode", word("off")}, {"factor", scalar(0.5)}},
+         {{"on", off}, {"amount", scalar(0)}}},
+        {"ConstantScatter",
+         "of nothing",
+         {{"mode", word("constant")}, {"factor", scalar(0)}},
+         {{"on", off}, {"amount", scalar(0)}}}};
+    for (const hair::ModelInfo& info : hair::scatteringModels()) all.push_back(shape(std::string(info.id), 0.15));
+    all.push_back(shape("moment_lut", -0.2));
+    all.push_back(shape("moment_lut", 0.9));
+    // A tenth of the light is left at `distance`: ln 10 / 0.03 m.
+    for (const char* mode : {"off", "hard", "pcf", "exponential"}) {
+        const double density = mode == std::string_view("exponential") ? 76.752836433134857 : 0;
+        all.push_back({"ShadowFalloff",
+                       mode,
+                       {{"mode", word(mode)}, {"distance", scalar(0.03)}, {"radius", Value::int32(2)}},
+                       {{"mode", word(mode)}, {"density", scalar(density)}, {"radius", Value::int32(2)}}});
+    }
+    return all;
+}
 
-    const Value exponential{ValueType::Enum, {}, 3, "exponential"}, hard{ValueType::Enum, {}, 1, "hard"};
-    const FunctorOutputs shadow = run("ShadowFalloff", {exponential, Value::scalar(0.03F), Value::int32(2)});
-    EXPECT_NEAR(std::exp(-scalar(shadow, 1) * 0.03), 0.1, 1e-6);
-    EXPECT_EQ(shadow.values().at(2).integer, 2);
-    EXPECT_EQ(scalar(run("ShadowFalloff", {hard, Value::scalar(0.03F), Value::int32(1)}), 1), 0.0);
+}  // namespace
 
-    EXPECT_EQ(run("EnvironmentScale", {Value::boolean(true), Value::scalar(0)}).values().at(0).integer, 0);
-    EXPECT_EQ(run("EnvironmentScale", {Value::boolean(false), Value::scalar(1)}).values().at(0).integer, 0);
-    EXPECT_EQ(scalar(run("EnvironmentScale", {Value::boolean(true), Value::scalar(2)}), 1), 2.0);
+TEST(Functors, EveryOutputIsItsClosedForm) {
+    std::set<std::string> covered;
+    for (const Case& row : cases()) {
+        expectAll(row);
+        covered.insert(row.functor);
+    }
+    for (const std::string& name : FunctorRegistry::standard().names()) covered.insert(name);
+    const std::vector<std::string> names = hair::functorRegistry().names();
+    EXPECT_EQ(covered, std::set<std::string>(names.begin(), names.end())) << "a functor without a case above";
+}
 
-    const Value off{ValueType::Enum, {}, 0, "off"}, constant{ValueType::Enum, {}, 1, "constant"};
-    EXPECT_EQ(run("ConstantScatter", {off, Value::scalar(0.5F)}).values().at(0).integer, 0);
-    EXPECT_EQ(run("ConstantScatter", {constant, Value::scalar(0)}).values().at(0).integer, 0);
-    EXPECT_EQ(scalar(run("ConstantScatter", {constant, Value::scalar(0.5F)}), 1), 0.5);
+// Peaks of highlights and lobes as their papers print them, so that the forms above are not the product's own.
+TEST(Functors, KajiyaHighlightHasTheIntegralsOfTheThesis) {
+    const auto integral = [](double exponent) {
+        return 1 / run("KajiyaSpecular", {{"enable", on}, {"exponent", scalar(exponent)}, {"weight", scalar(1)}})
+                       .values.at("norm")
+                       .number[0];
+    };
+    EXPECT_NEAR(integral(10), 4.64F, 0.005F);
+    EXPECT_NEAR(integral(80), 1.74F, 0.005F);
+    EXPECT_EQ(run("KajiyaSpecular", {{"enable", on}, {"exponent", scalar(-1)}, {"weight", scalar(1)}})
+                  .values.at("exponent")
+                  .number[0],
+              0.0F);
+}
 
-    const Value map = Value::texture("ids.png");
-    EXPECT_EQ(scalar(run("StrandIdVariation", {map, Value::boolean(false), Value::scalar(1)}), 2), 0.0);
-    EXPECT_EQ(run("StrandIdVariation", {map, Value::boolean(true), Value::scalar(0)}).values().at(1).integer, 0);
-    EXPECT_EQ(run("TexturedColor", {Value::color(1, 0, 0), Value::texture("builtin.white"), Value::boolean(true)})
-                  .values()
-                  .at(2)
-                  .integer,
-              0);
-    EXPECT_EQ(run("TexturedColor", {Value::color(1, 0, 0), map, Value::boolean(true)}).values().at(2).integer, 1);
+// The three laws by which colours become absorption, at the ends of their ranges too.
+TEST(Functors, AbsorptionLawsAreThoseOfTheirPapers) {
+    EXPECT_NEAR(std::exp(-4 * hair::sigmaFromPathColor(0.3)), 0.3, 1e-14) << "two paths through the axis";
+    EXPECT_EQ(hair::sigmaFromPathColor(1), 0);
+    EXPECT_NEAR(hair::sigmaFromPathColor(0), std::log(1e4) / 4, 1e-14);
+    const double fit = 5.969 - 0.215 + 2.532 - 10.73 + 5.574 + 0.245;  // Chiang 2016 (9) at beta_N 1
+    EXPECT_NEAR(hair::sigmaFromColor(0.2, 1), std::pow(std::log(0.2) / fit, 2), 1e-12);
+    EXPECT_EQ(hair::sigmaFromMelanin(1, 0), (std::array{0.419, 0.697, 1.37}));
+    EXPECT_EQ(hair::sigmaFromMelanin(0, 1), (std::array{0.187, 0.4, 1.05}));
+    EXPECT_EQ(hair::sigmaFromMelanin(-1, -1), (std::array{0.0, 0.0, 0.0}));
+}
+
+TEST(Functors, FresnelAndTexturedColor) {
+    const Outputs fresnel = run("FresnelFromIor", {{"ior", Value::scalar(1.55F)}});
+    expectValue(fresnel.values.at("f0"), scalar(std::pow(0.55 / 2.55, 2)), "f0");
+    expectValue(fresnel.values.at("eta"), Value::scalar(1.55F), "eta");
+    const auto textured = [](const char* map, const Value& use) {
+        return run("TexturedColor", {{"color", Value::color(1, 0, 0)}, {"map", Value::texture(map)}, {"useMap", use}});
+    };
+    EXPECT_EQ(textured("builtin.white", on).values.at("useMap").integer, 0);
+    EXPECT_EQ(textured("a.png", off).values.at("useMap").integer, 0);
+    EXPECT_EQ(textured("a.png", on).values.at("useMap").integer, 1);
 }
 
 TEST(Functors, BlendModeDecidesDrawListsAndStates) {
-    const std::vector<std::string> words{"opaque", "alphaTest", "alphaToCoverage", "hashedAlpha", "alphaBlend"};
-    for (std::size_t mode = 0; mode < words.size(); ++mode) {
-        const Value word{ValueType::Enum, {}, static_cast<std::int64_t>(mode), words[mode]};
-        const FunctorOutputs out =
-            run("BlendModeToPipeline", {word, Value::scalar(0.5F), Value::scalar(1), Value::boolean(mode != 1)});
-        const bool isBlend = mode == 4;
-        EXPECT_EQ(out.values().at(0).integer, static_cast<std::int64_t>(mode));
-        EXPECT_EQ(out.values().at(3).integer != 0, !isBlend);
-        EXPECT_EQ(out.values().at(4).integer != 0, !isBlend);
-        EXPECT_EQ(out.values().at(5).integer != 0, isBlend);
-        EXPECT_EQ(out.states().at(7).alphaToCoverage, mode == 2);
-        EXPECT_EQ(out.states().at(8).depthTest, DepthTest::Equal);
-        EXPECT_EQ(out.states().at(8).depthWrite, false);
-        EXPECT_EQ(out.states().at(9).blend, Blend::Premultiplied);
-        EXPECT_EQ(out.states().at(6).cull, mode != 1 ? rhi::CullMode::None : rhi::CullMode::Back);
+    for (const std::string mode : {"opaque", "alphaTest", "alphaToCoverage", "hashedAlpha", "alphaBlend"}) {
+        const bool isBlend = mode == "alphaBlend", twoSided = mode != "alphaTest";
+        const Outputs out = run("BlendModeToPipeline", {{"mode", word(mode)},
+                                                        {"threshold", Value::scalar(0.5F)},
+                                                        {"hashScale", Value::scalar(2)},
+                                                        {"doubleSided", Value::boolean(twoSided)}});
+        const std::map<std::string, std::string> words{{"opaque", "opaque"},
+                                                       {"alphaTest", "test"},
+                                                       {"alphaToCoverage", "coverage"},
+                                                       {"hashedAlpha", "hashed"},
+                                                       {"alphaBlend", "blend"}};
+        EXPECT_EQ(out.values.at("alphaMode").text, words.at(mode));
+        expectValue(out.values.at("threshold"), Value::scalar(0.5F), mode);
+        expectValue(out.values.at("hashScale"), Value::scalar(2), mode);
+        EXPECT_EQ(out.values.at("depthEnabled").integer != 0, !isBlend);
+        EXPECT_EQ(out.values.at("forwardEnabled").integer != 0, !isBlend);
+        EXPECT_EQ(out.values.at("blendEnabled").integer != 0, isBlend);
+        EXPECT_EQ(out.states.at("depthState").alphaToCoverage, mode == "alphaToCoverage");
+        EXPECT_EQ(out.states.at("forwardState").depthTest, DepthTest::Equal);
+        EXPECT_EQ(out.states.at("forwardState").depthWrite, false);
+        EXPECT_EQ(out.states.at("blendState").blend, Blend::Premultiplied);
+        EXPECT_EQ(out.states.at("shadowState").cull, twoSided ? rhi::CullMode::None : rhi::CullMode::Back);
     }
 }
 

@@ -64,7 +64,7 @@ TEST(MaterialFaults, EveryCodePointsAtTheMistake) {
          "I:7:1: error V009: 'scattering.longitudinalRoughness' is given twice, once by an older name; hint: first at "
          "6:1"},
         {"",
-         "I:4:16: error V001: material was saved with type version 5, this type is version 3; hint: update the "
+         "I:4:16: error V001: material was saved with type version 5, this type is version 4; hint: update the "
          "library, or save again",
          5},
         {R"("scattering": 1)",

@@ -181,7 +181,7 @@ TEST(Material, CopiesAreIndependent) {
     one.compile();
     Material two = one;
     two.set("scattering.ior", Value::scalar(2.0F));
-    EXPECT_NE(number(two.compile(), "fiber0"), number(one.compile(), "fiber0"));
+    EXPECT_NE(number(two.compile(), "eta"), number(one.compile(), "eta"));
     EXPECT_EQ(one.compile().functorRuns, 8U);
 }
 

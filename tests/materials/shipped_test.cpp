@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include "support.hpp"
 
+#include <pelage/hair/scattering.hpp>
+#include <pelage/materials/migrate.hpp>
+
 #include <algorithm>
 #include <filesystem>
 
@@ -45,6 +48,42 @@ TEST(Shipped, MaterialsReadWithoutAWord) {
     EXPECT_GE(count, 9);
 }
 
+// One list of models: the words of files, the shader option and the catalogue agree; files of version 3 had others.
+TEST(Shipped, ModelsHaveOneSpelling) {
+    const auto type = shipped("hair");
+    const auto model = std::find_if(type->properties().begin(), type->properties().end(),
+                                    [](const Property& property) { return property.id == "scattering.model"; });
+    const auto option = std::find_if(type->options().begin(), type->options().end(),
+                                     [](const Option& each) { return each.name == "scatteringModel"; });
+    std::vector<std::string> ids;
+    for (const hair::ModelInfo& info : hair::scatteringModels()) {
+        EXPECT_EQ(static_cast<std::size_t>(info.model), ids.size()) << info.id;
+        EXPECT_EQ(hair::findScatteringModel(info.id), &info);
+        EXPECT_EQ(hair::findScatteringModel(info.model), &info);
+        ids.emplace_back(info.id);
+    }
+    EXPECT_EQ(hair::findScatteringModel("momentLut"), nullptr);
+    EXPECT_EQ(hair::findScatteringModel(static_cast<hair::ScatteringModel>(ids.size())), nullptr);
+    EXPECT_EQ(hair::findScatteringModel(static_cast<hair::ScatteringModel>(-1)), nullptr);
+    EXPECT_EQ(model->words, ids);
+    EXPECT_EQ(option->words, ids);
+    EXPECT_EQ(option->max, static_cast<std::int64_t>(ids.size()) - 1);
+    for (const auto& [then, now] : {std::pair{"momentLut", "moment_lut"},
+                                    {"kajiyaKay", "kajiya_kay"},
+                                    {"segmentCdf", "segment_cdf"},
+                                    {"pxr", "pxr"}}) {
+        const std::string old = R"({ "format": "pelage.material/1", "type": "hair.materialtype.json", "typeVersion": 3,
+                                     "values": { "scattering.model": ")" +
+                                std::string(then) + "\" } }";
+        const auto read = Material::parse(old, "old", shippedSource());
+        ASSERT_TRUE(read) << read.error().text();
+        EXPECT_EQ(read->material.get("scattering.model")->text, now);
+        const auto migrated = migrate(old, "old", shippedSource());
+        ASSERT_TRUE(migrated) << migrated.error().text();
+        EXPECT_NE(migrated->text.find("\"" + std::string(now) + "\""), std::string::npos) << migrated->text;
+    }
+}
+
 // The shaders are written against these names; changing one here means changing them there.
 TEST(Shipped, InputsAndOptionsAreTheShadersNames) {
     const std::vector<std::string> inputs{"baseColor",  "alphaThreshold", "alphaHashScale", "shadowDensity",
@@ -52,11 +91,14 @@ TEST(Shipped, InputsAndOptionsAreTheShadersNames) {
                                           "colorMap",   "opacityMap",     "strandIdMap"};
     const std::vector<std::string> options{"alphaMode", "shadowMode",  "pcfRadius",  "envOn",
                                            "ambientOn", "useColorMap", "useStrandId"};
-    const std::vector<std::vector<std::string>> ownInputs{
-        {"sigmaA", "colorFit", "gainR", "gainTT", "gainTRT", "gainRES", "fiber0", "fiber1", "inverseVariance", "norm",
-         "deviation", "sinTilt", "cosTilt", "glint", "envInverseVariance", "envNorm", "envDeviation", "momentTable"},
+    std::vector<std::vector<std::string>> ownInputs{
+        {"sigmaA", "colorFit", "gainR", "gainTT", "gainTRT", "gainRES", "momentTable"},
         {"specularColor", "specularExponent", "specularNorm", "specularWeight", "diffuseWeight"},
         {"metallic", "roughness", "fresnelF0", "specularScale"}};
+#define FIBER_PARAMETER(type, name) ownInputs[0].emplace_back(#name);
+#define FIBER_WIDTH(type, name) ownInputs[0].insert(ownInputs[0].end(), {#name, #name "Wide"});
+#define FIBER_POINT(type, name)
+#include "scattering/fiber_parameters.def"
     const std::vector<std::vector<std::string>> ownOptions{
         {"lobeR", "lobeTT", "lobeTRT", "lobeRES", "attenuationModel", "scatteringModel", "asPublished", "chiangColor"},
         {},

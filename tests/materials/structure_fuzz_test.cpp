@@ -183,6 +183,9 @@ const std::vector<Legal> legalInTypes = {
     {"versionUpdates", {"[]", "deleted"}, "nothing is done to older materials"},
     {"versionUpdates.#", {"deleted"}, "less is done to older materials"},
     {"versionUpdates.#.actions.#", {"deleted"}, "less is done to older materials"},
+    {"versionUpdates.#.actions.#.words.kajiyaKay", {"deleted"}, "less is done to older materials"},
+    {"versionUpdates.#.actions.#.words.momentLut", {"deleted"}, "less is done to older materials"},
+    {"versionUpdates.#.actions.#.words.segmentCdf", {"deleted"}, "less is done to older materials"},
 };
 
 const std::vector<Legal> legalInMaterials = {

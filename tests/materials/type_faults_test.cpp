@@ -188,6 +188,16 @@ const Row rows[] = {
      "output 'state' cannot drive 'shader.main.enabled'", "write shader.name.state"},
     {R"("f0": "input.f0")", R"("f0": @"shader.other.enabled")", "M026", "output 'f0' cannot drive",
      "write input.name or option.name"},
+    {R"("type": "enum", "values": ["a", "b"])", R"("type": "enum", "values": @"Kidn.kind")", "M020",
+     "values: functor type 'Kidn' is not registered", "did you mean 'Kind'?"},
+    {R"("type": "enum", "values": ["a", "b"])", R"("type": "enum", "values": @"Kind.knd")", "M021",
+     "values: Kind has no port 'knd' with words", "did you mean 'kind'?"},
+    {R"("kind": { "values": ["a", "b"])", R"("kind": { "values": @"FresnelFromIor.ior")", "M021",
+     "values: FresnelFromIor has no port 'ior' with words", ""},
+    {R"("type": "enum", "values": ["a", "b"])", R"("type": "enum", "values": @"a, b")", "J015", "not of the right form",
+     "write a list of words, or Functor.port"},
+    {R"("out": { "f0": "input.f0" })", R"("out": { "f0": "input.f0", "*": @"option.f0" })", "M026",
+     "\"*\" cannot drive 'option.f0'", "write input.*"},
     {R"("name": "kind", "type": "enum", "values": ["a", "b"])",
      R"("name": "kind", "type": "enum", "values": ["b", "a"])", "M027",
      "values of 'glass.kind' differ from those of input 'kind' of Kind", "they must be, in this order: a, b"},
@@ -232,6 +242,28 @@ TEST(TypeFaults, TheSoundTextIsSilent) {
     const auto type = MaterialType::parse(soundText, "T", registry());
     ASSERT_TRUE(type) << type.error().text();
     EXPECT_EQ((*type)->warnings().text(), "");
+}
+
+// What a functor knows need not be written again: the words of its ports, and inputs of the names of its outputs.
+TEST(TypeFaults, AFunctorGivesItsWordsAndItsOutputs) {
+    std::string text(soundText);
+    for (const auto& [from, to] :
+         {std::pair<std::string_view, std::string_view>{R"("type": "enum", "values": ["a", "b"])",
+                                                        R"("type": "enum", "values": "Kind.kind")"},
+          {R"("kind": { "values": ["a", "b"])", R"("kind": { "values": "Kind.kind")"},
+          {R"("out": { "f0": "input.f0" })", R"("out": { "f0": "input.f0", "*": "input.*" })"}})
+        text.replace(text.find(from), from.size(), to);
+    const auto type = MaterialType::parse(text, "T", registry());
+    ASSERT_TRUE(type) << type.error().text();
+    EXPECT_EQ((*type)->warnings().text(), "");
+    const std::vector<std::string> words{"a", "b"};
+    EXPECT_EQ((*type)->properties().back().words, words);
+    EXPECT_EQ((*type)->options().back().words, words);
+    EXPECT_EQ((*type)->options().back().max, 1);
+    EXPECT_EQ((*type)->inputs().back().name, "eta") << "f0 is named, eta is the other output of FresnelFromIor";
+    Material material(*type);
+    EXPECT_EQ(test::number(material.compile(), "eta"), 1.5F);
+    EXPECT_EQ(test::number(material.compile(), "rough"), 0.5F);
 }
 
 TEST(TypeFaults, EveryCodePointsAtTheMistake) {

@@ -21,10 +21,12 @@ std::string typeText(std::string_view updates) {
   { "name": "angle", "type": "float", "default": 0.5, "min": -10, "max": 10, "connect": { "input": "angle" } },
   { "name": "pair", "type": "float2", "default": [0, 0], "connect": { "input": "pair" } },
   { "name": "steps", "type": "int", "default": 2, "min": 1, "max": 8, "connect": { "input": "steps" } },
+  { "name": "model", "type": "enum", "values": ["fine", "rough_one"], "default": "fine", "connect": { "option": "model" } },
   { "name": "on", "type": "bool", "default": true, "connect": { "shader": "main" } }
 ] }],
 "inputs": { "angle": "float", "pair": "float2", "steps": "int" },
-"shaders": { "main": { "drawList": "forward", "vertex": "a.vert" } } })";
+"options": { "model": { "values": ["fine", "rough_one"], "default": "fine" } },
+"shaders": { "main": { "drawList": "forward", "vertex": "a.vert", "options": "*" } } })";
 }
 
 constexpr std::string_view history = R"(
@@ -35,7 +37,10 @@ constexpr std::string_view history = R"(
   { "op": "setValue", "property": "look.glow", "value": 1 } ] },
 { "to": 3, "actions": [
   { "op": "rename", "from": "look.tilt", "to": "look.angle" },
+  { "op": "renameWords", "property": "look.model", "words": { "coarse": "rough" } },
   { "op": "remap", "property": "look.angle", "scale": -1 } ] },
+{ "to": 4, "actions": [
+  { "op": "renameWords", "property": "look.model", "words": { "rough": "rough_one" } } ] },
 { "to": 5, "actions": [
   { "op": "remove", "property": "look.glow" },
   { "op": "setValue", "property": "look.steps", "value": 7 } ] })";
@@ -86,6 +91,21 @@ TEST(Versions, WhatOlderFilesReliedOnIsRemappedToo) {
     EXPECT_EQ(parsed(5, "").material.get("look.steps")->integer, 2);
 }
 
+TEST(Versions, WordsOfOlderFilesAreRenamed) {
+    const auto model = [](int version, std::string_view word) {
+        return parsed(version, "\"look.model\": \"" + std::string(word) + "\"").material.get("look.model")->text;
+    };
+    EXPECT_EQ(model(2, "coarse"), "rough_one") << "renamed in version 3 and again in 4";
+    EXPECT_EQ(model(3, "rough"), "rough_one");
+    EXPECT_EQ(model(1, "fine"), "fine");
+    const auto now = Material::parse(file(4, R"("look.model": "rough")"), "I", source());
+    ASSERT_FALSE(now) << "a new file has today's words";
+    EXPECT_EQ(codesOf(now.error()), "V004");
+    const auto migrated = migrate(file(2, R"("look.model": "coarse")"), "I", source());
+    ASSERT_TRUE(migrated);
+    EXPECT_NE(migrated->text.find(R"("look.model": "rough_one")"), std::string::npos) << migrated->text;
+}
+
 TEST(Versions, RemovedPropertiesAreDroppedFromOldFilesAndRefusedInNewOnes) {
     const auto old = parsed(4, R"("look.glow": 0.5)");
     EXPECT_EQ(codesOf(old.warnings), "V014");
@@ -129,6 +149,12 @@ TEST(Versions, EveryFaultOfAnUpdateHasItsCodeAndPlace) {
          "T:3:53: error M044: remap of 'look.steps', which is int"},
         {R"({ "to": 2, "actions": [{ "op": "setValue", "property": "look.angle", "value": 20 }] })",
          "T:3:79: error V005: 20 is outside -10..10 of 'look.angle'; hint: write a number inside the range"},
+        {R"({ "to": 2, "actions": [{ "op": "renameWords", "property": "look.model", "words": { "a": "fin" } }] })",
+         "T:3:82: error M044: renameWords: 'fin' is not a value of 'look.model'; hint: did you mean 'fine'?"},
+        {R"({ "to": 2, "actions": [{ "op": "renameWords", "property": "look.steps", "words": { "a": "fine" } }] })",
+         "T:3:82: error M044: renameWords: 'fine' is not a value of 'look.steps'"},
+        {R"({ "to": 2, "actions": [{ "op": "renameWords", "property": "look.modle", "words": { "a": "fine" } }] })",
+         "T:3:59: error M043: renameWords names unknown property 'look.modle'; hint: did you mean 'look.model'?"},
         {R"({ "to": 2, "actions": [{ "op": "halve", "property": "look.angle" }] })", "T:3:24: error J0"},
         {R"({ "to": 2, "actions": [{ "op": "remap", "property": "look.angle", "scale": 1e9 }] })", "error J0"},
     };

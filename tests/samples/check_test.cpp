@@ -75,7 +75,7 @@ TEST_F(Check, ADrawListThatNoTreeHasIsNamed) {
     EXPECT_EQ(clean.err, "");
     const std::string material = write("mine.material.json",
                                        R"({ "format": "pelage.material/1", "type": "mine.materialtype.json",
-                                            "typeVersion": 3, "values": {} })");
+                                            "typeVersion": 4, "values": {} })");
     EXPECT_EQ(run({"check", material}).errorLines(), 1U);
     write("a.hair", hairFile(8, 4));
     const std::string scene = write("mine.scene.json", R"({ "format": "pelage.scene/1", "objects": [
@@ -96,12 +96,12 @@ TEST_F(Check, MigrateRewritesOlderMaterialsAndLeavesOthersAlone) {
     EXPECT_EQ(first.errorLines(), 1U) << "V007: " << first.err;
     EXPECT_EQ(read(old),
               "{\n    \"format\": \"pelage.material/1\",\n    \"type\": \"hair.materialtype.json\",\n"
-              "    \"typeVersion\": 3,\n    \"values\": {\n        \"scattering.longitudinalRoughness\": 0.3,\n"
+              "    \"typeVersion\": 4,\n    \"values\": {\n        \"scattering.longitudinalRoughness\": 0.3,\n"
               "        \"shadowing.mode\": \"pcf\",\n        \"scattering.model\": \"thesis\"\n    }\n}\n");
     const std::string after = read(old);
     const RunResult second = run({"migrate", old});
     EXPECT_EQ(second.exitCode, 0);
-    EXPECT_NE(second.out.find("version 3 already"), std::string::npos) << second.out;
+    EXPECT_NE(second.out.find("version 4 already"), std::string::npos) << second.out;
     EXPECT_EQ(read(old), after);
     const std::string bad = write("bad.material.json", "{}");
     EXPECT_EQ(run({"migrate", bad, old}).exitCode, 2);
@@ -112,7 +112,7 @@ TEST_F(Check, MigrateRewritesOlderMaterialsAndLeavesOthersAlone) {
 // A preset may be the parent of a material that lies anywhere.
 TEST_F(Check, ParentsAreFoundBesideTheFileAndAmongThePresets) {
     const auto material = [](const std::string& parent) {
-        return "{ \"format\": \"pelage.material/1\", \"type\": \"hair.materialtype.json\", \"typeVersion\": 3,\n"
+        return "{ \"format\": \"pelage.material/1\", \"type\": \"hair.materialtype.json\", \"typeVersion\": 4,\n"
                "\"parent\": \"" +
                parent + "\", \"values\": {} }";
     };

@@ -40,7 +40,7 @@ protected:
     }
 
     static std::string material(const std::string& color) {
-        return R"({ "format": "pelage.material/1", "type": "hair.materialtype.json", "typeVersion": 3,
+        return R"({ "format": "pelage.material/1", "type": "hair.materialtype.json", "typeVersion": 4,
                     "values": { "surface.baseColor": )" +
                color + " } }";
     }
@@ -125,7 +125,7 @@ TEST_F(Reload, BrokenTreesAreNotTaken) {
 TEST_F(Reload, BrokenMaterialsAndTypesAreNotTaken) {
     open();
     write("mine.material.json", R"({ "format": "pelage.material/1", "type": "hair.materialtype.json",
-                                     "typeVersion": 3, "values": 7 })");
+                                     "typeVersion": 4, "values": 7 })");
     expectKept("J012");
     write("mine.material.json", material("[0.1, 0.5, 0.9]"));
     expectTaken();

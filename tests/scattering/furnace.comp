@@ -4,7 +4,7 @@
 // the light: lavapipe ends every loop once an invocation has gone 65,536 times around loops in all.
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "scattering/packed_fiber.glsl"
+#include "scattering/models/models.glsl"
 
 layout(constant_id = 0) const int scatteringModel = 8;
 layout(constant_id = 1) const bool asPublished = false;
@@ -15,7 +15,7 @@ layout(local_size_x = 32) in;
 struct View {
     float sinO, cosO, h, unused;
 };
-layout(set = 0, binding = 0, std430) readonly buffer Materials { PackedFiber materials[]; };
+layout(set = 0, binding = 0, std430) readonly buffer Materials { FiberMaterial materials[]; };
 layout(set = 0, binding = 1, std430) readonly buffer Views { View views[]; };
 layout(set = 0, binding = 4, std430) writeonly buffer Energies { float energies[]; };  // by view, then inclination
 layout(set = 0, binding = 2) uniform texture2DArray momentTable;
@@ -27,7 +27,7 @@ layout(set = 0, binding = 3) uniform sampler s_linear;
 void main() {
     uint id = gl_GlobalInvocationID.x / uint(steps), i = gl_GlobalInvocationID.x % uint(steps);
     if (id >= uint(views.length())) return;
-    FiberMaterial m = unpackFiber(materials[id % uint(materials.length())]);
+    FiberMaterial m = materials[id % uint(materials.length())];
     m.nearField = nearField;
     View v = views[id];
     FiberAngles a;

@@ -30,7 +30,7 @@ TEST_F(Furnace, MomentLutKeepsItsEnergyAtEveryInclination) {
             }
             float low = 9, high = 0;
             for (const float energy : furnace(ScatteringModel::MomentLut, false, false,
-                                              {hair::packed(hair::resolve(fiber), false)}, views, &table)) {
+                                              {hair::packed(hair::resolveFiber(fiber))}, views, &table)) {
                 low = std::min(low, energy);
                 high = std::max(high, energy);
             }
@@ -58,8 +58,8 @@ TEST_F(Furnace, NoModelReturnsMoreThanItsBound) {
     hair::MomentTable table(eta, betaN);
     std::uint64_t points = 0;
     for (const Bound& bound : bounds) {
-        const hair::ModelInfo& info = hair::scatteringModels()[static_cast<std::size_t>(bound.model)];
-        const bool nearField = info.usesOffset && !info.usesTable;
+        const hair::ModelInfo& info = *hair::findScatteringModel(bound.model);
+        const bool nearField = info.nearField;
         std::mt19937 random(99);
         std::uniform_real_distribution<double> unit(0.0, 1.0);
         std::vector<hair::PackedFiber> fibers;
@@ -69,7 +69,7 @@ TEST_F(Furnace, NoModelReturnsMoreThanItsBound) {
             f.betaN = info.usesTable ? betaN : 0.2 + 0.8 * unit(random);
             f.betaM = 0.2 + 0.8 * unit(random);
             f.alpha = 0.2 * (unit(random) - 0.5);
-            fibers.push_back(hair::packed(hair::resolve(f), nearField));
+            fibers.push_back(hair::packed(hair::resolveFiber(f, nearField)));
         }
         std::vector<FurnaceView> views;
         for (std::size_t i = 0; i < viewCount; ++i) {

@@ -41,8 +41,10 @@ protected:
                                const std::vector<hair::PackedFiber>& materials, const std::vector<FurnaceView>& views,
                                hair::MomentTable* table);
 
-private:
+    /// The table as a texture; zeros for null.
     rhi::TextureView upload(hair::MomentTable* table);
+
+private:
     rhi::ComputePipeline pipelineOf(const char* shader, std::vector<rhi::ConstantEntry> constants);
 };
 

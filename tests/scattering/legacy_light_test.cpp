@@ -210,9 +210,9 @@ TEST(LegacyModels, CorrectedFormsGainNoMoreThanTheirFitsDo) {
                 for (const double thetaO : {0.0, 30.0, 60.0, 75.0, 85.0, -30.0, -60.0, -75.0, -85.0}) {
                     const double total =
                         furnace(bound.model, false, fiber(betaM, 0.3, alpha), thetaO, &table, 180, 60).total;
-                    const std::string what =
-                        std::string(hair::scatteringModels()[static_cast<std::size_t>(bound.model)].id) + " " +
-                        std::to_string(betaM) + " " + std::to_string(alpha) + " " + std::to_string(thetaO);
+                    const std::string what = std::string(hair::findScatteringModel(bound.model)->id) + " " +
+                                             std::to_string(betaM) + " " + std::to_string(alpha) + " " +
+                                             std::to_string(thetaO);
                     if (std::abs(thetaO) > 80) {
                         EXPECT_LT(total, bound.end) << what;
                         EXPECT_GT(total, 0.55) << what;

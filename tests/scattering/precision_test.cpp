@@ -68,7 +68,7 @@ using Scatter = hair::ScatteredLobes (*)(ScatteringModel, bool, const hair::Fibe
 std::vector<hair::ScatteredLobes> onCpu(Scatter scatter, ScatteringModel model,
                                         const std::vector<hair::ScatterRow>& all) {
     std::vector<hair::ScatteredLobes> results;
-    const bool usesTable = hair::scatteringModels()[static_cast<std::size_t>(model)].usesTable;
+    const bool usesTable = hair::findScatteringModel(model)->usesTable;
     for (const hair::ScatterRow& row : all) {
         std::optional<hair::MomentTable> table;
         if (usesTable) table.emplace(row.fiber.eta, row.fiber.betaN);
@@ -91,8 +91,8 @@ TEST_F(Precision, GpuFloatsAreCloseToTheDoubleBuild) {
             const double gpuError = worst(all, *found, exact);
             const double floatError = worst(all, onCpu(hair::scatterFloat, model, all), exact);
             std::printf("%-12s beta %.2f..%.2f: GPU %.2g, C++ float %.2g, goal %.0e\n",
-                        hair::scatteringModels()[static_cast<std::size_t>(model)].id.data(), band.low, band.high,
-                        gpuError, floatError, band.bound);
+                        hair::findScatteringModel(model)->id.data(), band.low, band.high, gpuError, floatError,
+                        band.bound);
             EXPECT_LE(gpuError, band.bound);
             EXPECT_LE(floatError, band.bound);
         }

@@ -4,7 +4,7 @@
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "visibility/hash.glsl"
-#include "scattering/packed_fiber.glsl"
+#include "scattering/models/models.glsl"
 
 layout(constant_id = 0) const int scatteringModel = 8;
 layout(constant_id = 1) const bool asPublished = false;
@@ -13,7 +13,7 @@ layout(constant_id = 3) const bool nonsense = false;  // vectors that are no dir
 layout(constant_id = 4) const float nearField = 0.0;
 layout(local_size_x = 64) in;
 
-layout(set = 0, binding = 0, std430) readonly buffer Materials { PackedFiber materials[]; };
+layout(set = 0, binding = 0, std430) readonly buffer Materials { FiberMaterial materials[]; };
 // Floats above zero keep their order as integers.
 layout(set = 0, binding = 1, std430) buffer Found {
     uint notFinite, negative, guardFailed, worstPeak, worstStep, worstSeed, worstTurn, worstMirror, worstTurnRelative;
@@ -118,15 +118,17 @@ FiberLobes bareAt(FiberAngles a, FiberMaterial m) {
 
 void main() {
     uint id = gl_GlobalInvocationID.x;
-    FiberMaterial m = unpackFiber(materials[id % uint(materials.length())]);
+    FiberMaterial m = materials[id % uint(materials.length())];
     m.nearField = nearField;
     state = uvec3(id, run.seed, 77u);
     // Slopes per lobe height that a step is measured by: one over the narrowest widths.
-    float narrow = scatteringModel == MODEL_PXR && m.glint.x > 0.0 ? max(m.inverseScale, m.glint.y) : m.inverseScale;
-    tallest = max(m.peak, scatteringModel == MODEL_PXR && m.glint.x > 0.0 ? 1.1 * m.glint.y : 0.0);
+    float narrow = scatteringModel == MODEL_pxr && m.glint.x > 0.0 ? max(m.inverseScale, m.glint.y) : m.inverseScale;
+    tallest = max(m.peak, scatteringModel == MODEL_pxr && m.glint.x > 0.0 ? 1.1 * m.glint.y : 0.0);
     float slope = sqrt(m.inverseVariance.y) + narrow + 4.0;
-    bool ordinary = (scatteringModel != MODEL_PXR || m.glint.y <= 20.0) &&
-                    m.betaM >= 0.2 && m.betaN >= 0.2 && m.eta >= 1.2 && m.eta <= 2.0 && m.sigmaA.x <= 4.0 && abs(m.alpha) <= 0.1;
+    // Roughnesses of 0.2 and more: along the fibre that is a width of 0.17768 (Chiang 2016, equation 7).
+    bool ordinary = (scatteringModel != MODEL_pxr || m.glint.y <= 20.0) &&
+                    m.deviation.x >= 0.17768 && m.betaN >= 0.2 && m.eta >= 1.2 && m.eta <= 2.0 &&
+                    m.sigmaA.x <= 4.0 && abs(m.alpha) <= 0.1;
     if (nonsense) {
         // A material that is no material: vectors alone are mended by fiberAngles() before a model sees them.
         float kind = next(), zero = next() * 0.0;
@@ -166,8 +168,8 @@ void main() {
         FiberLobes after = bareAt(moved, m);
         check(after, after);
         // Models over theta_d have a pole where both directions lie along the fibre at opposite ends.
-        bool pole = scatteringModel == MODEL_MARSCHNER || scatteringModel == MODEL_THESIS ||
-                    scatteringModel == MODEL_GERARD;
+        bool pole = scatteringModel == MODEL_marschner || scatteringModel == MODEL_thesis ||
+                    scatteringModel == MODEL_gerard;
         if (pole && cosThetaD(a) < 0.2) continue;
         FiberLobes before = bareAt(same, m);
         check(before, before);

@@ -45,7 +45,7 @@ std::vector<hair::PackedFiber> fibers(std::uint32_t seed, std::size_t count, con
         hair::FiberProperties f = anyFiber(random);
         if (eta != nullptr) f.eta = *eta;
         if (betaN != nullptr) f.betaN = *betaN;
-        all.push_back(hair::packed(hair::resolve(f), nearField));
+        all.push_back(hair::packed(hair::resolveFiber(f, nearField)));
     }
     return all;
 }
@@ -54,7 +54,7 @@ std::vector<hair::PackedFiber> fibers(std::uint32_t seed, std::size_t count, con
 constexpr std::uint64_t evaluations = 4;
 
 TEST_P(Stress, FiniteBoundedAndContinuous) {
-    const hair::ModelInfo& info = hair::scatteringModels()[static_cast<std::size_t>(GetParam().model)];
+    const hair::ModelInfo& info = *hair::findScatteringModel(GetParam().model);
     Found worst{};
     std::uint64_t points = 0;
     const auto add = [&](const Found& f, const StressRun& run) {
@@ -104,7 +104,7 @@ TEST_P(Stress, FiniteBoundedAndContinuous) {
 
 // The forms with their sources' errors are bounded by nothing, but they are numbers too.
 TEST_P(Stress, PublishedFormsAreNumbers) {
-    const hair::ModelInfo& info = hair::scatteringModels()[static_cast<std::size_t>(GetParam().model)];
+    const hair::ModelInfo& info = *hair::findScatteringModel(GetParam().model);
     if (!info.corrected) GTEST_SKIP() << "there is one form";
     const double eta = 1.0001, betaN = 0.1;
     hair::MomentTable table(eta, betaN);
@@ -117,7 +117,7 @@ TEST_P(Stress, PublishedFormsAreNumbers) {
 
 // Whatever comes in, what scatterFiber() returns is a number: the guard at its end.
 TEST_P(Stress, NonsenseInGivesNumbersOut) {
-    const hair::ModelInfo& info = hair::scatteringModels()[static_cast<std::size_t>(GetParam().model)];
+    const hair::ModelInfo& info = *hair::findScatteringModel(GetParam().model);
     hair::MomentTable table(1.55, 0.3);
     const double eta = 1.55, betaN = 0.3;
     for (const bool published : {false, true}) {
@@ -125,7 +125,7 @@ TEST_P(Stress, NonsenseInGivesNumbersOut) {
         const StressRun run{.model = info.model,
                             .published = published,
                             .nonsense = true,
-                            .nearField = info.usesOffset && !info.usesTable,
+                            .nearField = info.nearField,
                             .invocations = 4096,
                             .points = 32,
                             .seed = 13};
@@ -137,7 +137,7 @@ TEST_P(Stress, NonsenseInGivesNumbersOut) {
 }
 
 INSTANTIATE_TEST_SUITE_P(EveryModel, Stress, ::testing::ValuesIn(bounds), [](const auto& instance) {
-    return std::string(hair::scatteringModels()[static_cast<std::size_t>(instance.param.model)].id);
+    return std::string(hair::findScatteringModel(instance.param.model)->id);
 });
 
 }  // namespace

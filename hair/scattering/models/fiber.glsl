@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // What every scattering model takes and gives: the directions in the frame of the fibre, the fibre, a look-up into its
-// tables, and one value for each lobe. Conventions: u is the unit tangent from root to tip; theta = asin(w.u), the
+// tables, and one value for each lobe. The members of both structs, with their meaning, stand in fiber_angles.def and
+// fiber_parameters.def. Conventions: u is the unit tangent from root to tip; theta = asin(w.u), the
 // angle from the normal plane; phi = phi_i - phi_o; both directions point away from the fibre; wo is the view. S_p has
 // the integral A_p over the sphere of wi, so L_o = S E_perp.
 #ifndef PELAGE_FIBER_GLSL
@@ -8,27 +9,14 @@
 #include "numerics.glsl"
 
 struct FiberAngles {
-    real sinI, cosI, sinO, cosO;  // of theta_i, theta_o; cosines >= 0
-    real phi;                     // in [-pi, pi]
-    real cosPhi;
-    real h, cosGamma;  // offset of the view ray, -1..1, and sqrt(1 - h^2); near field only
+#define FIBER_ANGLE(name) real name;
+#include "scattering/fiber_angles.def"
 };
 
-// Everything of a fibre that does not depend on directions, made once per material: resolveFiber() in C++.
+// Made once per material: resolveFiber() in C++.
 struct FiberMaterial {
-    real eta, etaExcess;          // index of refraction; eta^2 - 1, which a float eta near 1 has lost
-    real alpha;                   // tilt, rad: R -2 alpha, TT +alpha, TRT +4 alpha, added to theta_o
-    real betaM, betaN;            // Chiang's roughnesses
-    real inverseScale, peak;      // of the trimmed logistic: 1 / s and 1 / (s tanh(pi / 2s))
-    real3 sigmaA;                 // absorption per radius
-    real3 color;                  // of models that reflect a colour and know no absorption
-    real4 inverseVariance;        // 1 / v of R, TT, TRT, residual
-    real4 norm;                   // 1 / (v (1 - exp(-2 / v)))
-    real4 deviation;              // sqrt(v)
-    real4 sinTilt, cosTilt;       // of the four tilts
-    real4 glint;                  // pxr: gain, 1 / (phi width), cos(theta shift), sin(theta shift)
-    real offsetFit;               // thesis: 1: TT at Karis' fitted offset; 0: at Tafuri's h = 0
-    real nearField;               // 1: h is known; 0: the mean over h is wanted
+#define FIBER_PARAMETER(type, name) type name;
+#include "scattering/fiber_parameters.def"
 };
 
 // Bilinear look-up of the moment table (moments.glsl) at theta_o and phi; zero for models without tables.
@@ -82,6 +70,14 @@ FiberAngles fiberAngles(real3 u, real3 wi, real3 wo) {
     a.h = 0.0;
     a.cosGamma = 1.0;
     return a;
+}
+
+// The same seen at the offset h of the view ray, -1 to 1.
+FiberAngles atOffset(FiberAngles a, real h) {
+    FiberAngles b = a;
+    b.h = h;
+    b.cosGamma = sqrt(max(1.0 - h * h, real(0.0)));
+    return b;
 }
 
 // |cos| and |sin| of theta_d = (theta_o - theta_i) / 2, as half the sum and difference of two unit vectors: no digits

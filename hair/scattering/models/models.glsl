@@ -3,27 +3,13 @@
 // one branch is left of this.
 #ifndef PELAGE_MODELS_GLSL
 #define PELAGE_MODELS_GLSL
-#include "chiang.glsl"
-#include "gerard.glsl"
-#include "kajiya_kay.glsl"
-#include "karis.glsl"
-#include "marschner.glsl"
-#include "moments.glsl"
-#include "pxr.glsl"
-#include "scheuermann.glsl"
-#include "segments.glsl"
-#include "thesis.glsl"
+#include "fiber.glsl"
+#include "scattering_model_files.glsl"  // generated from the list: the file of each model
+#include "traits.glsl"
 
-const int MODEL_KAJIYA_KAY = 0;
-const int MODEL_SCHEUERMANN = 1;
-const int MODEL_MARSCHNER = 2;
-const int MODEL_KARIS = 3;
-const int MODEL_THESIS = 4;
-const int MODEL_GERARD = 5;
-const int MODEL_CHIANG = 6;
-const int MODEL_PXR = 7;
-const int MODEL_MOMENT_LUT = 8;
-const int MODEL_SEGMENT_CDF = 9;
+#define PELAGE_SCATTERING_MODEL(number, id, name, function, traits, title, source) const int MODEL_##id = number;
+#include "include/pelage/hair/scattering_models.def"
+#undef PELAGE_SCATTERING_MODEL
 
 real3 finiteOrZero(real3 x) {
     real3 y;
@@ -35,16 +21,10 @@ real3 finiteOrZero(real3 x) {
 
 // As the model has it: for directions and materials that are numbers and in their ranges it is finite and not negative.
 FiberLobes scatterFiberBare(int model, bool published, FiberAngles a, FiberMaterial m, FiberTable table) {
-    if (model == MODEL_KAJIYA_KAY) return scatterKajiyaKay(a, m, table, published);
-    if (model == MODEL_SCHEUERMANN) return scatterScheuermann(a, m, table, published);
-    if (model == MODEL_MARSCHNER) return scatterMarschner(a, m, table, published);
-    if (model == MODEL_KARIS) return scatterKaris(a, m, table, published);
-    if (model == MODEL_THESIS) return scatterThesis(a, m, table, published);
-    if (model == MODEL_GERARD) return scatterGerard(a, m, table, published);
-    if (model == MODEL_CHIANG) return scatterChiang(a, m, table, published);
-    if (model == MODEL_PXR) return scatterPxr(a, m, table, published);
-    if (model == MODEL_MOMENT_LUT) return scatterMoments(a, m, table, published);
-    if (model == MODEL_SEGMENT_CDF) return scatterSegments(a, m, table, published);
+#define PELAGE_SCATTERING_MODEL(number, id, name, function, traits, title, source) \
+    if (model == number) return function(a, m, table, published);
+#include "include/pelage/hair/scattering_models.def"
+#undef PELAGE_SCATTERING_MODEL
     return noLobes();
 }
 

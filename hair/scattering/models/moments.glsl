@@ -65,8 +65,4 @@ FiberLobes azimuthMoments(FiberAngles a, FiberMaterial m, FiberTable table) {
     n.RES = n0.w * absorbResidual(m.sigmaA, table.rest);
     return n;
 }
-
-FiberLobes scatterMoments(FiberAngles a, FiberMaterial m, FiberTable table, bool) {
-    return alongFiber(azimuthMoments(a, m, table), longitudinals(a, m));
-}
 #endif

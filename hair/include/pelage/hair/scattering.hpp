@@ -16,18 +16,11 @@
 
 namespace pelage::hair {
 
-/// Numbers are those of models.glsl and of the shader option `scatteringModel`.
+/// The models of scattering_models.def; the numbers are those of the shader option `scatteringModel`.
 enum class ScatteringModel : int {
-    KajiyaKay = 0,
-    Scheuermann = 1,
-    Marschner = 2,
-    Karis = 3,
-    Thesis = 4,
-    Gerard = 5,
-    Chiang = 6,
-    Pxr = 7,
-    MomentLut = 8,
-    SegmentCdf = 9,
+#define PELAGE_SCATTERING_MODEL(number, id, name, function, traits, title, source) name = number,
+#include <pelage/hair/scattering_models.def>
+#undef PELAGE_SCATTERING_MODEL
 };
 
 struct ModelInfo {
@@ -37,14 +30,18 @@ struct ModelInfo {
     std::string_view source;  ///< paper or talk
     bool corrected = false;   ///< the published form is wrong somewhere: `published` selects it
     bool usesTable = false;   ///< reads a MomentTable
-    bool usesOffset = false;  ///< knows h
+    bool usesOffset = false;  ///< can be asked for one offset h
+    bool nearField = false;   ///< rendered at one random offset per fragment: its mean over h costs too much
     bool reciprocal = false;  ///< S / cos(theta_i) is the same with the two directions exchanged
+    bool controls = false;    ///< widths, shifts and glint of the lobes are the artist's
 };
 
 /// All models, in the order of their numbers.
 std::span<const ModelInfo> scatteringModels();
 /// Null when there is none of that id.
 const ModelInfo* findScatteringModel(std::string_view id);
+/// Null for a number that is none of the enumerators'.
+const ModelInfo* findScatteringModel(ScatteringModel model);
 
 /// A fibre as a user describes it. Everything is clamped to the ranges given; NaN becomes the lower end.
 struct FiberProperties {

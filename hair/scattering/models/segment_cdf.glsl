@@ -3,8 +3,8 @@
 // the weight A cos(gamma) / 2 are taken as linear in gamma; the integral of (linear weight) x (logistic around a linear
 // Phi) is then exact, by the logistic's first and second antiderivatives. Narrow lobes are no harder than wide ones,
 // where sampling h would need a point per width of the logistic.
-#ifndef PELAGE_SEGMENTS_GLSL
-#define PELAGE_SEGMENTS_GLSL
+#ifndef PELAGE_SEGMENT_CDF_GLSL
+#define PELAGE_SEGMENT_CDF_GLSL
 #include "attenuation.glsl"
 
 const int segmentCount = 8;  // from gamma = 0 to pi/2; the other half is its mirror image
@@ -77,7 +77,7 @@ real2 segmentWeights(LogisticPoint a, LogisticPoint b, FiberMaterial m) {
     return w;
 }
 
-FiberLobes scatterSegments(FiberAngles a, FiberMaterial m, FiberTable, bool) {
+FiberLobes scatterSegmentCdf(FiberAngles a, FiberMaterial m, FiberTable, bool) {
     FiberSection s = fiberSection(m, a.cosO);
     FiberLobes n = noLobes(), before = noLobes();
     LogisticPoint last[6];  // R, TT, TRT at +h, then at -h
