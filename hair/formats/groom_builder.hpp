@@ -2,6 +2,7 @@
 // Collects strands from a file, keeps only those that can be drawn, and counts what it leaves out.
 #pragma once
 
+#include <pelage/base/diagnostic.hpp>
 #include <pelage/hair/geometry.hpp>
 
 #include <span>

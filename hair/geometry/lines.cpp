@@ -2,7 +2,10 @@
 // Strands to line segments: a uniform Catmull-Rom curve through the points of each strand.
 #include "vectors.hpp"
 
+#include <pelage/hair/geometry.hpp>
+
 #include <algorithm>
+#include <span>
 
 namespace pelage::hair {
 namespace {
