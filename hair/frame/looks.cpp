@@ -75,7 +75,7 @@ const rhi::Error* Look::failure() const {
 // By content, not by the material's versions: another material in the same place of the scene starts counting anew.
 bool Renderer::State::looksLike(const Look& look, const ObjectState& object,
                                 const materials::CompiledMaterial& material) const {
-    return look.shadowsOff == shadowsOff && look.environmentOff == environmentOff &&
+    return look.lights == lights && look.environmentOff == environmentOff &&
            look.isEmpty == object.geometry->source->indices.empty() &&
            std::equal(look.shaders.begin(), look.shaders.end(), material.shaders.begin(), material.shaders.end(),
                       sameStates);
@@ -93,8 +93,8 @@ Outcome<void> Renderer::State::updateLook(ObjectState& object, const Object& fro
         object.next = Look{.type = from.material.sharedType(),
                            .strands = strands,
                            .isEmpty = object.geometry->source->indices.empty(),
-                           .shadowsOff = shadowsOff,
                            .environmentOff = environmentOff,
+                           .lights = lights,
                            .shaders = object.material->shaders};
     }
     for (std::optional<Look>* look : {&object.shown, &object.next}) {
@@ -143,7 +143,7 @@ rhi::Result<void> Renderer::State::requestPipelines(Look& look, const std::strin
         for (std::uint32_t i = 0; i < look.shaders.size(); ++i) {
             const materials::CompiledMaterial::Shader& shader = look.shaders[i];
             if (!shader.enabled || shader.use.drawList != pass.drawList) continue;
-            auto descriptor = describePipeline(look, shader, targets);
+            auto descriptor = describePipeline(look, shader, targets, pass.view == "shadow");
             if (!descriptor) return tl::unexpected(descriptor.error());
             descriptor->label = label + " " + shader.use.name;
             look.draws.push_back({pass.name, i, pipelines.request(std::move(*descriptor))});
@@ -154,11 +154,12 @@ rhi::Result<void> Renderer::State::requestPipelines(Look& look, const std::strin
 }
 
 rhi::Result<rhi::RenderPipelineDescriptor> Renderer::State::describePipeline(
-    const Look& look, const materials::CompiledMaterial::Shader& shader, const passes::Targets& targets) {
+    const Look& look, const materials::CompiledMaterial::Shader& shader, const passes::Targets& targets,
+    bool isLightView) {
     std::vector<rhi::ConstantEntry> constants = shader.constants;
     materials::RenderState state = shader.state;
     for (rhi::ConstantEntry& constant : constants) {
-        if (constant.name == "shadowMode" && look.shadowsOff) constant.value = 0;
+        if (constant.name == "shadowMode" && look.lights.shadows == 0) constant.value = 0;
         if (constant.name == "envOn" && look.environmentOff) constant.value = 0;
         // A strand thinner than a pixel has no edge to test: its coverage is stochastic in every cut-out mode.
         const bool isCutOut = constant.value == 1 || constant.value == 2;
@@ -167,6 +168,8 @@ rhi::Result<rhi::RenderPipelineDescriptor> Renderer::State::describePipeline(
     if (look.strands) state.alphaToCoverage = false;
     constants.push_back({"isStrand", look.strands ? 1.0 : 0.0});
     constants.push_back({"sampleCount", static_cast<double>(targets.samples)});
+    constants.push_back({"isLightView", isLightView ? 1.0 : 0.0});
+    for (rhi::ConstantEntry& constant : look.lights.constants()) constants.push_back(std::move(constant));
 
     auto vertex = module(shader.use.vertex);
     if (!vertex) return tl::unexpected(vertex.error());

@@ -33,7 +33,8 @@ struct ObjectBlock {
 struct Look {
     std::shared_ptr<const materials::MaterialType> type = {};
     bool strands = false, isEmpty = false;
-    bool shadowsOff = false, environmentOff = false;
+    bool environmentOff = false;
+    LightOptions lights = {};
     std::vector<materials::CompiledMaterial::Shader> shaders = {};
     std::uint64_t graph = 0;  // the build of the graph that `draws` is for
     struct Draw {
@@ -84,7 +85,8 @@ struct Renderer::State {
     std::vector<std::shared_ptr<const materials::MaterialType>> checkedTypes;
     FrameReport frame;
     // What the scene does not require is switched off for this frame whatever the material says.
-    bool shadowsOff = false, environmentOff = false;
+    bool environmentOff = false;
+    LightOptions lights = {};
 
     State(const Descriptor& descriptor, rhi::Sampler sampler)
         : device(descriptor.device),
@@ -106,7 +108,7 @@ struct Renderer::State {
     rhi::Result<void> requestPipelines(Look& look, const std::string& label);
     rhi::Result<rhi::RenderPipelineDescriptor> describePipeline(const Look& look,
                                                                 const materials::CompiledMaterial::Shader& shader,
-                                                                const passes::Targets& targets);
+                                                                const passes::Targets& targets, bool isLightView);
     // renderer_draw.cpp
     Outcome<rhi::BindGroup> materialGroup(std::size_t index, const Look& look, std::uint32_t shader,
                                           const rhi::BindGroupLayout& layout);

@@ -4,6 +4,7 @@
 
 #include "functor_ports.hpp"
 #include "functors_fiber.hpp"
+#include "lighting/shadow.hpp"
 
 #include <algorithm>
 #include <array>
@@ -59,17 +60,17 @@ FunctorType strandIdVariation() {
 // Exponential falloff leaves a tenth of the light `distance` metres behind the first surface: density = ln 10 /
 // distance.
 FunctorType shadowFalloff() {
-    const std::vector<std::string> modes{"off", "hard", "pcf", "exponential"};
+    const std::vector<std::string> modes = shadowTechniqueWords();
     FunctorType type;
     type.name = "ShadowFalloff";
     type.description = "How shadows are looked up, and how fast light fades inside the hair (1/m).";
     type.in = {words("mode", modes), port("distance", ValueType::Float), port("radius", ValueType::Int)};
     type.out = {words("mode", modes), port("density", ValueType::Float), port("radius", ValueType::Int)};
     type.run = [](std::span<const Value> in, FunctorOutputs& out) {
-        const bool isExponential = in[0].integer == 3;
+        const bool fades = shadowTechniques()[static_cast<std::size_t>(in[0].integer)].fades;
         const float distance = std::max(in[1].number[0], 1e-6F);
         out.set(0, in[0]);
-        out.set(1, Value::scalar(isExponential ? std::numbers::ln10_v<float> / distance : 0.0F));
+        out.set(1, Value::scalar(fades ? std::numbers::ln10_v<float> / distance : 0.0F));
         out.set(2, in[2]);
     };
     return type;
