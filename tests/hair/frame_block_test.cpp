@@ -8,11 +8,14 @@
 
 #include <pelage/base/json.hpp>
 #include <pelage/hair/functors.hpp>
+#include <pelage/hair/scene_file.hpp>
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <cstddef>
+#include <filesystem>
+#include <fstream>
 
 namespace pelage::test {
 
@@ -146,6 +149,20 @@ TEST(LightingLists, WordsInFilesAreThoseOfTheLists) {
         ASSERT_NE(option, options.end()) << type;
         EXPECT_EQ(option->words, hair::shadowTechniqueWords()) << type;
     }
+}
+
+TEST(LightingLists, AnUnknownKindInASceneIsNamedWithTheNearest) {
+    const std::string path = (std::filesystem::temp_directory_path() / "pelage_light_kind.scene.json").string();
+    std::ofstream(path) << R"({ "format": "pelage.scene/1",
+  "objects": [{ "name": "head", "generate": { "kind": "head" } }],
+  "lights": [{ "kind": "piont", "position": [0, 1, 0] }] })";
+    const auto scene = hair::loadScene(path, dataLibrary());
+    std::filesystem::remove(path);
+    ASSERT_FALSE(scene);
+    const std::string said = scene.error().text();
+    EXPECT_NE(said.find("piont"), std::string::npos) << said;
+    EXPECT_NE(said.find("did you mean \"point\""), std::string::npos) << said;
+    EXPECT_NE(said.find(":3:"), std::string::npos) << said;
 }
 
 TEST(LightingLists, OptionsSayWhichLightsThereAre) {

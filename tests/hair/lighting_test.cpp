@@ -174,7 +174,10 @@ TEST_F(Lighting, ShadowMapsHoldTheWholeOfTheHair) {
     scene.objects.push_back({.name = "hair", .geometry = strands(), .material = diffuse()});
     glm::vec3 low, high;
     hair::bounds(scene, true, low, high);
-    for (const glm::vec3 d : {glm::vec3(1, 1, 1), {-1, 1, 1}, {0, -1, 0}, {0, 0, 1}, {0.3F, -0.5F, 0.8F}, {1, 0, 0}}) {
+    // Along its diagonal the box comes nearest to the sphere around it.
+    const glm::vec3 diagonal = high - low;
+    for (const glm::vec3 d : {diagonal, -diagonal, glm::vec3(1, 1, 1), glm::vec3(0, -1, 0), glm::vec3(0, 0, 1),
+                              glm::vec3(0.3F, -0.5F, 0.8F), glm::vec3(1, 0, 0)}) {
         const glm::vec3 center = 0.5F * (low + high);
         const auto at = [&](float far) {
             return hair::Light{.kind = hair::Light::Kind::Point,
@@ -207,9 +210,9 @@ TEST_F(Lighting, TheFrontOfTheHairCastsItsShadow) {
                                      hair::Light{.kind = hair::Light::Kind::Point, .position = {0, 0, 40}}}) {
         hair::Scene scene = receiver(material, {light});
         // Small beside their distance, so that the first layer nearly touches the sphere around all.
-        scene.objects[0].transform = glm::scale(glm::mat4(1.0F), glm::vec3(0.25F));
+        scene.objects[0].transform = glm::scale(glm::mat4(1.0F), glm::vec3(0.1F));
         addLayer(scene, 4.0F, material);
-        scene.objects.back().transform = glm::scale(scene.objects.back().transform, glm::vec3(0.25F));
+        scene.objects.back().transform = glm::scale(scene.objects.back().transform, glm::vec3(0.1F));
         EXPECT_EQ(radiance(scene), 0.0);
         scene.lights[0].castsShadow = false;
         EXPECT_GT(radiance(scene), 0.0);
