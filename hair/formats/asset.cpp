@@ -78,7 +78,7 @@ void repairWidths(Groom& groom, const std::string& path, Diagnostics& notes) {
                      "set the thickness in metres"));
 }
 
-Outcome<LoadedAsset> finishGroom(Outcome<Groom> groom, const std::string& path, Diagnostics notes) {
+Result<LoadedAsset> finishGroom(Result<Groom> groom, const std::string& path, Diagnostics notes) {
     if (!groom) return tl::unexpected(std::move(groom.error()));
     scaleToMetres(*groom, path, notes);
     repairWidths(*groom, path, notes);
@@ -128,11 +128,11 @@ std::string describeCards(const Geometry& g) {
 
 }  // namespace
 
-Outcome<LoadedAsset> loadAsset(const std::string& path) {
+Result<LoadedAsset> loadAsset(const std::string& path) {
     const std::string ending = lowerEnding(path);
     const bool known = ending == ".glb" || ending == ".gltf" || ending == ".tfx" || ending == ".hair";
     if (!known) {
-        return tl::unexpected(fault("A001", path,
+        return tl::unexpected(fault("A100", path,
                                     "the ending \"" + ending + "\" is not known, expected .glb, .gltf, .tfx or .hair",
                                     "convert the asset, or correct its ending"));
     }

@@ -54,7 +54,7 @@ public:
         cards_.name = name;
     }
 
-    Outcome<Geometry> read() {
+    Result<Geometry> read() {
         if (auto fault = walkScene()) return tl::unexpected(std::move(*fault));
         if (cards_.indices.empty()) {
             return tl::unexpected(reading::fault("G012", name_, "the default scene holds no triangles, expected cards",
@@ -173,7 +173,7 @@ private:
         if (!positions) return positions.error();
         const auto uvs = gltf::elements(model_, primitive.attributes.at("TEXCOORD_0"), "TEXCOORD_0", name_);
         if (!uvs) return uvs.error();
-        const auto optional = [&](const char* semantic) -> Outcome<gltf::Elements> {
+        const auto optional = [&](const char* semantic) -> Result<gltf::Elements> {
             const auto found = primitive.attributes.find(semantic);
             if (found == primitive.attributes.end()) return gltf::Elements();
             return gltf::elements(model_, found->second, semantic, name_);
@@ -354,19 +354,19 @@ std::string reading::folderOf(const std::string& path) {
     return slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
 }
 
-Outcome<Geometry> reading::readGltf(std::span<const std::byte> bytes, const std::string& name,
+Result<Geometry> reading::readGltf(std::span<const std::byte> bytes, const std::string& name,
                                     const std::string& folder, Diagnostics& notes) {
-    const Outcome<tinygltf::Model> model = gltf::readDocument(bytes, name, folder);
+    const Result<tinygltf::Model> model = gltf::readDocument(bytes, name, folder);
     if (!model) return tl::unexpected(model.error());
     return CardReader(*model, name, notes).read();
 }
 
-Outcome<Geometry> parseGltf(std::span<const std::byte> bytes, const std::string& name) {
+Result<Geometry> parseGltf(std::span<const std::byte> bytes, const std::string& name) {
     Diagnostics notes;
     return reading::readGltf(bytes, name, "", notes);
 }
 
-Outcome<Geometry> loadGltf(const std::string& path) {
+Result<Geometry> loadGltf(const std::string& path) {
     Diagnostics notes;
     return readFile(path).and_then([&](const std::vector<std::byte>& bytes) {
         return reading::readGltf(bytes, path, reading::folderOf(path), notes);

@@ -59,7 +59,7 @@ void GroomBuilder::add(std::span<const glm::vec3> points, std::span<const float>
     groom_.firstPoint.push_back(static_cast<std::uint32_t>(groom_.points.size()));
 }
 
-Outcome<Groom> GroomBuilder::finish(Diagnostics& notes) {
+Result<Groom> GroomBuilder::finish(Diagnostics& notes) {
     const std::string& file = groom_.name;
     const std::string all = " of " + std::to_string(seen_) + " strands";
     if (groom_.strandCount() == 0) {

@@ -19,7 +19,7 @@ public:
     /// `widths` is empty or has one entry per point.
     void add(std::span<const glm::vec3> points, std::span<const float> widths);
     /// The groom, or the error (family)006 when no strand is left; warnings about dropped strands go to `notes`.
-    Outcome<Groom> finish(Diagnostics& notes);
+    Result<Groom> finish(Diagnostics& notes);
 
 private:
     std::string code(const char* number) const { return family_ + std::string(number); }

@@ -37,7 +37,7 @@ void layOut(Header& h) {
     h.end = at;
 }
 
-Outcome<Header> readHeader(std::span<const std::byte> bytes, const std::string& name) {
+Result<Header> readHeader(std::span<const std::byte> bytes, const std::string& name) {
     if (bytes.size() < kHeaderBytes) {
         return tl::unexpected(fault(
             "H001", name,
@@ -85,7 +85,7 @@ std::uint32_t pointsOf(std::span<const std::byte> bytes, const Header& h, std::s
 }
 
 /// The segments must use every point exactly once; anything else would shift all strands that follow.
-Outcome<std::monostate> checkSegments(std::span<const std::byte> bytes, const std::string& name, const Header& h) {
+Result<std::monostate> checkSegments(std::span<const std::byte> bytes, const std::string& name, const Header& h) {
     std::uint64_t sum = 0;
     for (std::size_t s = 0; s < h.strands; ++s) sum += pointsOf(bytes, h, s);
     if (sum != h.points) {
@@ -104,8 +104,8 @@ void put(std::vector<std::byte>& out, std::size_t offset, const T& value) {
 
 }  // namespace
 
-Outcome<Groom> reading::readHair(std::span<const std::byte> bytes, const std::string& name, Diagnostics& notes) {
-    const Outcome<Header> header = readHeader(bytes, name);
+Result<Groom> reading::readHair(std::span<const std::byte> bytes, const std::string& name, Diagnostics& notes) {
+    const Result<Header> header = readHeader(bytes, name);
     if (!header) return tl::unexpected(header.error());
     const Header& h = *header;
     if (const auto checked = checkSegments(bytes, name, h); !checked) return tl::unexpected(checked.error());
@@ -131,12 +131,12 @@ Outcome<Groom> reading::readHair(std::span<const std::byte> bytes, const std::st
     return builder.finish(notes);
 }
 
-Outcome<Groom> parseHair(std::span<const std::byte> bytes, const std::string& name) {
+Result<Groom> parseHair(std::span<const std::byte> bytes, const std::string& name) {
     Diagnostics notes;
     return reading::readHair(bytes, name, notes);
 }
 
-Outcome<Groom> loadHair(const std::string& path) {
+Result<Groom> loadHair(const std::string& path) {
     return readFile(path).and_then([&](const std::vector<std::byte>& bytes) { return parseHair(bytes, path); });
 }
 

@@ -6,10 +6,10 @@
 
 namespace pelage::hair::reading {
 
-Outcome<Groom> readTfx(std::span<const std::byte> bytes, const std::string& name, Diagnostics& notes);
-Outcome<Groom> readHair(std::span<const std::byte> bytes, const std::string& name, Diagnostics& notes);
+Result<Groom> readTfx(std::span<const std::byte> bytes, const std::string& name, Diagnostics& notes);
+Result<Groom> readHair(std::span<const std::byte> bytes, const std::string& name, Diagnostics& notes);
 /// `folder`: where buffers and images named by URIs lie; empty: the file must be complete in itself.
-Outcome<Geometry> readGltf(std::span<const std::byte> bytes, const std::string& name, const std::string& folder,
+Result<Geometry> readGltf(std::span<const std::byte> bytes, const std::string& name, const std::string& folder,
                            Diagnostics& notes);
 /// The folder part of a path; "." for a bare file name.
 std::string folderOf(const std::string& path);

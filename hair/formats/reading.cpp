@@ -43,7 +43,7 @@ Diagnostic fault(std::string_view code, std::string_view file, std::string_view 
 
 }  // namespace reading
 
-Outcome<std::vector<std::byte>> readFile(const std::string& path, std::size_t limit) {
+Result<std::vector<std::byte>> readFile(const std::string& path, std::size_t limit) {
     using reading::fault;
     std::error_code error;
     if (!std::filesystem::exists(path, error)) {

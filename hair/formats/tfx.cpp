@@ -30,7 +30,7 @@ Diagnostic promisesMore(const std::string& name, const Header& h, std::size_t si
                  "the file is cut off or its header is damaged: copy or export it again");
 }
 
-Outcome<Header> readHeader(std::span<const std::byte> bytes, const std::string& name) {
+Result<Header> readHeader(std::span<const std::byte> bytes, const std::string& name) {
     if (bytes.size() < kHeaderBytes) {
         return tl::unexpected(fault("T001", name,
                                     "the file has " + std::to_string(bytes.size()) +
@@ -76,8 +76,8 @@ Outcome<Header> readHeader(std::span<const std::byte> bytes, const std::string& 
 
 }  // namespace
 
-Outcome<Groom> reading::readTfx(std::span<const std::byte> bytes, const std::string& name, Diagnostics& notes) {
-    const Outcome<Header> header = readHeader(bytes, name);
+Result<Groom> reading::readTfx(std::span<const std::byte> bytes, const std::string& name, Diagnostics& notes) {
+    const Result<Header> header = readHeader(bytes, name);
     if (!header) return tl::unexpected(header.error());
     const std::size_t perStrand = header->pointsPerStrand;
     GroomBuilder builder(name, 'T');
@@ -95,12 +95,12 @@ Outcome<Groom> reading::readTfx(std::span<const std::byte> bytes, const std::str
     return builder.finish(notes);
 }
 
-Outcome<Groom> parseTfx(std::span<const std::byte> bytes, const std::string& name) {
+Result<Groom> parseTfx(std::span<const std::byte> bytes, const std::string& name) {
     Diagnostics notes;
     return reading::readTfx(bytes, name, notes);
 }
 
-Outcome<Groom> loadTfx(const std::string& path) {
+Result<Groom> loadTfx(const std::string& path) {
     return readFile(path).and_then([&](const std::vector<std::byte>& bytes) { return parseTfx(bytes, path); });
 }
 

@@ -8,7 +8,7 @@
 
 namespace pelage::hair {
 
-Outcome<void> Renderer::State::buildGraph(const Scene& scene, const FrameSettings& settings, std::uint32_t& shadowSize,
+Result<void> Renderer::State::buildGraph(const Scene& scene, const FrameSettings& settings, std::uint32_t& shadowSize,
                                           std::uint32_t& shadowLights) {
     passes::HostDescription wanted;
     wanted.extent = {settings.width, settings.height, 1};
@@ -63,7 +63,7 @@ Outcome<void> Renderer::State::buildGraph(const Scene& scene, const FrameSetting
     return {};
 }
 
-Outcome<void> Renderer::State::writeView(std::size_t index, const FrameBlock& block) {
+Result<void> Renderer::State::writeView(std::size_t index, const FrameBlock& block) {
     if (views.size() <= index) views.resize(index + 1);
     ViewState& view = views[index];
     if (!view.block) {
@@ -71,15 +71,15 @@ Outcome<void> Renderer::State::writeView(std::size_t index, const FrameBlock& bl
             device.createBuffer({.label = index == 0 ? "frame" : "frame of shadow " + std::to_string(index - 1),
                                  .size = sizeof(FrameBlock),
                                  .usage = rhi::BufferUsage::Uniform | rhi::BufferUsage::CopyDst});
-        if (!buffer) return tl::unexpected(toDiagnostic(buffer.error()));
+        if (!buffer) return tl::unexpected(buffer.error());
         view.block = *buffer;
     }
     auto written = device.queue().writeBuffer(view.block, 0, std::as_bytes(std::span(&block, 1)));
-    if (!written) return tl::unexpected(toDiagnostic(written.error()));
+    if (!written) return tl::unexpected(written.error());
     return {};
 }
 
-Outcome<void> Renderer::State::prepareObjects(Scene& scene, const FrameViews& frameViews) {
+Result<void> Renderer::State::prepareObjects(Scene& scene, const FrameViews& frameViews) {
     objects.resize(scene.objects.size());
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         Object& object = scene.objects[i];
@@ -93,7 +93,7 @@ Outcome<void> Renderer::State::prepareObjects(Scene& scene, const FrameViews& fr
             auto buffer = device.createBuffer({.label = object.name + " object",
                                                .size = sizeof(ObjectBlock),
                                                .usage = rhi::BufferUsage::Uniform | rhi::BufferUsage::CopyDst});
-            if (!buffer) return tl::unexpected(toDiagnostic(buffer.error()));
+            if (!buffer) return tl::unexpected(buffer.error());
             state.block = *buffer;
         }
         ObjectBlock block;
@@ -113,7 +113,7 @@ Outcome<void> Renderer::State::prepareObjects(Scene& scene, const FrameViews& fr
             block.lineWidth = {state.lineWidthMain, state.lineWidthShadow, 0, 0};
         }
         auto written = device.queue().writeBuffer(state.block, 0, std::as_bytes(std::span(&block, 1)));
-        if (!written) return tl::unexpected(toDiagnostic(written.error()));
+        if (!written) return tl::unexpected(written.error());
         // Alpha blending needs an order.
         const bool blends =
             state.shown && std::any_of(state.shown->shaders.begin(), state.shown->shaders.end(), [](const auto& s) {
@@ -129,11 +129,11 @@ Outcome<void> Renderer::State::prepareObjects(Scene& scene, const FrameViews& fr
             auto buffer = device.createBuffer({.label = object.name + " sorted indices",
                                                .size = bytes.size(),
                                                .usage = rhi::BufferUsage::Index | rhi::BufferUsage::CopyDst});
-            if (!buffer) return tl::unexpected(toDiagnostic(buffer.error()));
+            if (!buffer) return tl::unexpected(buffer.error());
             state.sortedIndices = *buffer;
         }
         written = device.queue().writeBuffer(state.sortedIndices, 0, bytes);
-        if (!written) return tl::unexpected(toDiagnostic(written.error()));
+        if (!written) return tl::unexpected(written.error());
     }
     uploads.collect();
     return {};

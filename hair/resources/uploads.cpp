@@ -16,11 +16,11 @@ namespace pelage::hair {
 namespace {
 
 template <class T>
-tl::unexpected<Diagnostic> failed(const rhi::Result<T>& result) {
-    return tl::unexpected(toDiagnostic(result.error()));
+tl::unexpected<Diagnostic> failed(const Result<T>& result) {
+    return tl::unexpected(result.error());
 }
 
-Outcome<rhi::Buffer> makeBuffer(const rhi::Device& device, const std::string& label, rhi::BufferUsage usage,
+Result<rhi::Buffer> makeBuffer(const rhi::Device& device, const std::string& label, rhi::BufferUsage usage,
                                 std::span<const std::byte> bytes) {
     auto buffer =
         device.createBuffer({.label = label, .size = bytes.size(), .usage = usage | rhi::BufferUsage::CopyDst});
@@ -31,7 +31,7 @@ Outcome<rhi::Buffer> makeBuffer(const rhi::Device& device, const std::string& la
 
 }  // namespace
 
-Outcome<const GpuGeometry*> Uploads::geometry(const std::shared_ptr<const Geometry>& source) {
+Result<const GpuGeometry*> Uploads::geometry(const std::shared_ptr<const Geometry>& source) {
     if (const auto found = geometry_.find(source.get()); found != geometry_.end()) return &found->second;
     GpuGeometry result = {.source = source};
     auto vertices = makeBuffer(device_, source->name + " vertices", rhi::BufferUsage::Vertex,
@@ -58,7 +58,7 @@ Outcome<const GpuGeometry*> Uploads::geometry(const std::shared_ptr<const Geomet
     return &geometry_.emplace(source.get(), std::move(result)).first->second;
 }
 
-Outcome<rhi::TextureView> Uploads::texture(const std::string& reference, bool srgb) {
+Result<rhi::TextureView> Uploads::texture(const std::string& reference, bool srgb) {
     const std::string key = reference + (srgb ? "|srgb" : "|linear");
     if (const auto found = textures_.find(key); found != textures_.end()) return found->second;
     if (reference.starts_with("moments:")) {
@@ -90,7 +90,7 @@ Outcome<rhi::TextureView> Uploads::texture(const std::string& reference, bool sr
     return view;
 }
 
-Outcome<rhi::TextureView> Uploads::uploadMoments(const std::string& name) {
+Result<rhi::TextureView> Uploads::uploadMoments(const std::string& name) {
     // A model without tables binds one black texel.
     std::optional<MomentTable> table = momentTableOf(name);
     const std::uint32_t width = table ? table->width() : 1, height = table ? table->height() : 1;
@@ -110,7 +110,7 @@ Outcome<rhi::TextureView> Uploads::uploadMoments(const std::string& name) {
     return *view;
 }
 
-Outcome<rhi::TextureView> Uploads::upload(const Image8& image, const std::string& label) {
+Result<rhi::TextureView> Uploads::upload(const Image8& image, const std::string& label) {
     const std::vector<Image8> levels = mipChain(image);
     const bool one = levels.front().channels == 1;
     auto texture = device_.createTexture({.label = label,
@@ -133,7 +133,7 @@ Outcome<rhi::TextureView> Uploads::upload(const Image8& image, const std::string
     return *view;
 }
 
-Outcome<rhi::Texture> Uploads::irradiance(const Environment& environment) {
+Result<rhi::Texture> Uploads::irradiance(const Environment& environment) {
     if (irradiance_ && environment.radiance == irradianceOf_.radiance &&
         environment.intensity == irradianceOf_.intensity) {
         return irradiance_;

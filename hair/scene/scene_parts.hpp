@@ -50,7 +50,7 @@ inline std::shared_ptr<const Geometry> generate(const GenerateRequest& request, 
 inline constexpr std::uint32_t fewStrands = 16000;
 
 /// Reads an asset and makes it drawable; what the reader noted is added to `notes`.
-inline Outcome<std::shared_ptr<const Geometry>> loadGeometry(const std::string& path, std::uint32_t subdivisions,
+inline Result<std::shared_ptr<const Geometry>> loadGeometry(const std::string& path, std::uint32_t subdivisions,
                                                              Diagnostics& notes) {
     auto loaded = loadAsset(path);
     if (!loaded) return tl::unexpected(loaded.error());
