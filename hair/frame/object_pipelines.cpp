@@ -74,7 +74,7 @@ const Diagnostics* ObjectPipelines::failure() const {
 
 bool Renderer::State::isFor(const ObjectPipelines& set, const ObjectState& object,
                             const materials::CompiledMaterial& material) const {
-    return set.shadowsOff == shadowsOff && set.environmentOff == environmentOff &&
+    return set.lights == lights && set.environmentOff == environmentOff &&
            set.isEmpty == object.geometry->source->indices.empty() &&
            std::equal(set.shaders.begin(), set.shaders.end(), material.shaders.begin(), material.shaders.end(),
                       sameStates);
@@ -92,8 +92,8 @@ Result<void> Renderer::State::updatePipelines(ObjectState& object, const Object&
         object.next = ObjectPipelines{.type = from.material.sharedType(),
                                       .strands = strands,
                                       .isEmpty = object.geometry->source->indices.empty(),
-                                      .shadowsOff = shadowsOff,
                                       .environmentOff = environmentOff,
+                                      .lights = lights,
                                       .shaders = object.material->shaders};
     }
     for (std::optional<ObjectPipelines>* set : {&object.shown, &object.next}) {
@@ -165,7 +165,7 @@ std::vector<rhi::ConstantEntry> Renderer::State::constantsOf(const ObjectPipelin
                                                              std::uint32_t samples) const {
     std::vector<rhi::ConstantEntry> constants = shader.constants;
     for (rhi::ConstantEntry& constant : constants) {
-        if (constant.name == "shadowMode" && set.shadowsOff) constant.value = 0;
+        if (constant.name == "shadowMode" && set.lights.shadows == 0) constant.value = 0;
         if (constant.name == "envOn" && set.environmentOff) constant.value = 0;
         // A strand thinner than a pixel has no edge to test: its coverage is stochastic in every cut-out mode.
         const bool isCutOut = constant.value == 1 || constant.value == 2;
@@ -173,6 +173,8 @@ std::vector<rhi::ConstantEntry> Renderer::State::constantsOf(const ObjectPipelin
     }
     constants.push_back({"isStrand", set.strands ? 1.0 : 0.0});
     constants.push_back({"sampleCount", static_cast<double>(samples)});
+    constants.push_back({"isLightView", pass.view == "shadow" ? 1.0 : 0.0});
+    for (rhi::ConstantEntry& constant : set.lights.constants()) constants.push_back(std::move(constant));
     // What the pass says goes before what the material says.
     for (const auto& [name, value] : pass.constants) {
         std::erase_if(constants, [&](const rhi::ConstantEntry& each) { return each.name == name; });

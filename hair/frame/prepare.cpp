@@ -45,6 +45,13 @@ Result<void> Renderer::State::buildGraph(const Scene& scene, const FrameSettings
             wanted.settings[info.name] = {passes::SettingValue::Type::Uint, shadowLights, {}};
         }
     }
+    // Full-screen passes that loop over the lights are told of them by settings.
+    for (const rhi::ConstantEntry& constant : lightOptions(scene, shadowLights).constants()) {
+        const auto isIt = [&](const passes::SettingInfo& info) { return info.name == constant.name; };
+        if (std::any_of(tree->settings().begin(), tree->settings().end(), isIt))
+            wanted.settings[constant.name] = {
+                passes::SettingValue::Type::Uint, static_cast<std::uint32_t>(constant.value), {}};
+    }
     const auto same = [&] {
         return built && wanted.extent == host.extent && wanted.settings == host.settings &&
                wanted.imports == host.imports;
@@ -98,9 +105,8 @@ Result<void> Renderer::State::prepareObjects(Scene& scene, const FrameViews& fra
             const glm::vec3 middle = glm::vec3(
                 object.transform * glm::vec4(0.5F * (object.geometry->boundsMin + object.geometry->boundsMax), 1.0F));
             const auto width = [&](const FrameBlock& view) {
-                const float distance =
-                    std::max(glm::dot(middle - glm::vec3(view.eye), glm::vec3(view.viewForward)), 1e-4F);
-                const float pixels = state.geometry->meanWidth / (view.pixel.x * distance + view.pixel.y);
+                const float distance = std::max(glm::dot(middle - view.eye, view.viewForward), 1e-4F);
+                const float pixels = state.geometry->meanWidth / (view.pixelScale * distance + view.pixelConstant);
                 return std::clamp(pixels, 1.0F,
                                   device.has(rhi::Feature::WideLines) ? device.limits().maxLineWidth : 1.0F);
             };
@@ -119,7 +125,7 @@ Result<void> Renderer::State::prepareObjects(Scene& scene, const FrameViews& fra
             state.sortedIndices = {};
             continue;
         }
-        const auto sorted = backToFront(*object.geometry, object.transform, glm::vec3(frameViews.main.viewForward));
+        const auto sorted = backToFront(*object.geometry, object.transform, frameViews.main.viewForward);
         const auto bytes = std::as_bytes(std::span(sorted));
         if (!state.sortedIndices || state.sortedIndices.size() != bytes.size()) {
             auto buffer = device.createBuffer({.label = object.name + " sorted indices",

@@ -106,7 +106,7 @@ Result<void> Renderer::encode(Scene& scene, const FrameSettings& settings, rhi::
     std::uint32_t shadowSize = 1, shadowLights = 0;
     if (auto built = state.buildGraph(scene, settings, shadowSize, shadowLights); !built) return built;
     const FrameViews views = makeViews(scene, settings, shadowSize, shadowLights);
-    state.shadowsOff = views.shadows.empty();
+    state.lights = views.lights;
     state.environmentOff = !scene.environment.enabled();
     if (auto prepared = state.prepareObjects(scene, views); !prepared) return prepared;
     if (auto written = state.writeView(0, views.main); !written) return written;

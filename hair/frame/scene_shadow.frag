@@ -9,7 +9,7 @@
 #define FRAME_BINDING 3
 #include "shaders/options.glsl"
 #include "shaders/frame.glsl"
-#include "lighting/shadow.glsl"
+#include "lighting/lights.glsl"
 
 #define HOST_DEPTH_REVERSED 0
 layout(constant_id = 30) const int hostDepth = HOST_DEPTH_REVERSED;
@@ -20,7 +20,7 @@ layout(location = 0) out vec4 o_color;
 void main() {
     float depth = texelFetch(u_sceneDepth, ivec2(gl_FragCoord.xy), 0).r;
     if (hostDepth != HOST_DEPTH_REVERSED) depth = 1.0 - depth;
-    vec2 ndc = vec2(2.0, -2.0) * gl_FragCoord.xy * frame.viewport.zw + vec2(-1.0, 1.0);
+    vec2 ndc = vec2(2.0, -2.0) * gl_FragCoord.xy * frame.pixelSize + vec2(-1.0, 1.0);
     // What is infinitely far would divide by zero; it is dropped below, after the derivatives.
     vec4 h = frame.inverseViewProjection * vec4(ndc, max(depth, 1e-7), 1.0);
     vec3 world = h.xyz / h.w;
@@ -28,20 +28,13 @@ void main() {
     o_color = vec4(0.0);
     if (depth <= 1e-7 || dot(normal, normal) <= 0.0) return;
     normal = normalize(normal);
-    if (dot(normal, frame.eye.xyz - world) < 0.0) normal = -normal;
+    if (dot(normal, frame.eye - world) < 0.0) normal = -normal;
     float all = 0.0, lit = 0.0;
-    for (int i = 0; i < int(frame.eye.w); ++i) {
-        LightData light = frame.lights[i];
-        vec3 toLight = light.direction.xyz;
-        float power = dot(light.power.rgb, vec3(0.2126, 0.7152, 0.0722));
-        if (light.position.w > 0.5) {
-            vec3 d = light.position.xyz - world;
-            power /= max(dot(d, d), 1e-8);
-            toLight = normalize(d);
-        }
-        power *= max(dot(normal, toLight), 0.0);
+    for (int i = 0; i < lightCount; ++i) {
+        Incident light = incidentLight(i, world);
+        float power = dot(light.irradiance, vec3(0.2126, 0.7152, 0.0722)) * max(dot(normal, light.direction), 0.0);
         all += power;
-        lit += power * shadowTransmittance(light, world, 0.0, 1e-3);
+        lit += power * shadowTransmittance(i, world, 0.0, 1e-3);
     }
     float taken = all > 0.0 ? 1.0 - lit / all : 0.0;
     o_color = vec4(0.0, 0.0, 0.0, taken * float(sceneShadow) * 0.01);

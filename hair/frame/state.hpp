@@ -34,7 +34,8 @@ struct ObjectBlock {
 struct ObjectPipelines {
     std::shared_ptr<const materials::MaterialType> type = {};
     bool strands = false, isEmpty = false;
-    bool shadowsOff = false, environmentOff = false;
+    bool environmentOff = false;
+    LightOptions lights = {};
     std::vector<materials::CompiledMaterial::Shader> shaders = {};
     std::uint64_t graph = 0;  // the build of the graph that `uses` is for
     struct Use {
@@ -94,7 +95,8 @@ struct Renderer::State {
     std::vector<std::shared_ptr<const materials::MaterialType>> checkedTypes;
     FrameReport frame;
     // What the scene does not require is switched off for this frame whatever the material says.
-    bool shadowsOff = false, environmentOff = false;
+    bool environmentOff = false;
+    LightOptions lights = {};
 
     State(const Descriptor& descriptor, rhi::Sampler sampler)
         : device(descriptor.device),

@@ -29,7 +29,8 @@ struct LightView {
 LightView lightView(const Light& light, const glm::vec3& center, float radius, float mapSize) {
     LightView view;
     const float distance = glm::length(center - light.position);
-    if (light.kind == Light::Kind::Point && distance > 1.02F * radius) {
+    const bool hasPosition = lightKind(light.kind).hasPosition;
+    if (hasPosition && distance > 1.02F * radius) {
         view.perspective = true;
         view.eye = light.position;
         view.forward = (center - light.position) / distance;
@@ -39,9 +40,8 @@ LightView lightView(const Light& light, const glm::vec3& center, float radius, f
         view.matrix = perspectiveReversed(fov, 1.0F, view.nearPlane, view.farPlane);
         view.pixelScale = 2.0F * std::tan(0.5F * fov) / mapSize;
     } else {
-        // A directional light, or a point light so near that one frustum cannot hold the scene: parallel rays.
-        view.forward = light.kind == Light::Kind::Point ? unit(center - light.position, {0, -1, 0})
-                                                        : unit(light.direction, {0, -1, 0});
+        // A light without a position, or one so near that one frustum cannot hold the scene: parallel rays.
+        view.forward = unit(hasPosition ? center - light.position : light.direction, {0, -1, 0});
         view.eye = center - view.forward * (2.0F * radius);
         view.nearPlane = 0.9F * radius;
         view.farPlane = 3.1F * radius;
@@ -62,13 +62,13 @@ void setHostView(FrameBlock& block, const HostView& host) {
     }
     block.viewProjection = projection * host.view;
     const glm::mat4 fromView = glm::inverse(host.view);
-    block.eye = glm::vec4(glm::vec3(fromView[3]), 0.0F);
-    block.viewForward = glm::vec4(unit(-glm::vec3(fromView[2]), {0, 0, -1}), 0.0F);
+    block.eye = glm::vec3(fromView[3]);
+    block.viewForward = unit(-glm::vec3(fromView[2]), {0, 0, -1});
     // Height of a pixel: at one metre in perspective, everywhere in a parallel projection.
     const float height = 2.0F / (std::max(std::abs(projection[1][1]), 1e-12F) * block.viewport.y);
     const bool perspective = projection[2][3] != 0.0F;
-    block.pixel.x = perspective ? height : 0.0F;
-    block.pixel.y = perspective ? 0.0F : height;
+    block.pixelScale = perspective ? height : 0.0F;
+    block.pixelConstant = perspective ? 0.0F : height;
 }
 
 }  // namespace
@@ -93,14 +93,6 @@ glm::mat4 orthographicReversed(float halfWidth, float halfHeight, float nearPlan
     return m;
 }
 
-std::uint32_t countShadowLights(const Scene& scene) {
-    std::uint32_t count = 0;
-    for (std::size_t i = 0; i < std::min<std::size_t>(scene.lights.size(), maxLights); ++i) {
-        if (scene.lights[i].castsShadow) ++count;
-    }
-    return count;
-}
-
 FrameViews makeViews(const Scene& scene, const FrameSettings& settings, std::uint32_t shadowSize,
                      std::uint32_t shadowLights) {
     FrameViews views;
@@ -110,49 +102,52 @@ FrameViews makeViews(const Scene& scene, const FrameSettings& settings, std::uin
     glm::vec3 up = unit(camera.up, {0, 1, 0});
     if (std::abs(glm::dot(up, forward)) > 0.999F) up = anyUp(forward);
     const float w = static_cast<float>(settings.width), h = static_cast<float>(settings.height);
-    const std::size_t count = std::min<std::size_t>(scene.lights.size(), maxLights);
-    main.viewport = {w, h, 1.0F / w, 1.0F / h};
-    main.pixel = {0.0F, 0.0F, static_cast<float>(settings.frameIndex), scene.exposure};
+    main.viewport = {w, h};
+    main.pixelSize = 1.0F / main.viewport;
+    main.frameIndex = settings.frameIndex;
     if (settings.view) {
         setHostView(main, *settings.view);
     } else {
         main.viewProjection = perspectiveReversed(camera.verticalFov, w / h, camera.nearPlane, camera.farPlane) *
                               glm::lookAt(camera.eye, camera.eye + forward, up);
-        main.eye = glm::vec4(camera.eye, 0.0F);
-        main.pixel.x = 2.0F * std::tan(0.5F * camera.verticalFov) / h;
-        main.viewForward = glm::vec4(forward, 0.0F);
+        main.eye = camera.eye;
+        main.pixelScale = 2.0F * std::tan(0.5F * camera.verticalFov) / h;
+        main.viewForward = forward;
     }
-    main.eye.w = static_cast<float>(count);
     main.inverseViewProjection = glm::inverse(main.viewProjection);
 
     glm::vec3 low, high;
     bounds(scene, true, low, high);
     const glm::vec3 center = 0.5F * (low + high);
     const float radius = std::max(0.52F * glm::length(high - low), 1e-4F);
-    const glm::vec3 ambient = scene.environment.enabled() ? scene.environment.meanRadiance() : glm::vec3(0.0F);
+    if (scene.environment.enabled()) main.ambient = scene.environment.meanRadiance();
     const float size = static_cast<float>(shadowSize);
-    for (std::size_t i = 0; i < count; ++i) {
+    views.lights = lightOptions(scene, shadowLights);
+    for (std::uint32_t i = 0; i < views.lights.count; ++i) {
         const Light& light = scene.lights[i];
         LightBlock& block = main.lights[i];
-        const glm::vec3 power = light.color * light.intensity;
-        const bool point = light.kind == Light::Kind::Point;
-        block.position = glm::vec4(light.position, point ? 1.0F : 0.0F);
-        block.direction = glm::vec4(-unit(light.direction, {0, -1, 0}), -1.0F);
-        block.power = glm::vec4(power, 0.0F);
-        if (!light.castsShadow || views.shadows.size() >= shadowLights) continue;
+        block.position = light.position;
+        block.toLight = -unit(light.direction, {0, -1, 0});
+        block.power = light.color * light.intensity;
+        if ((views.lights.shadows >> i & 1U) == 0) continue;
         const LightView view = lightView(light, center, radius, size);
-        block.direction.w = static_cast<float>(views.shadows.size());
-        block.shadow = view.matrix;
-        block.shadowDepth = {view.nearPlane, view.farPlane, view.perspective ? 1.0F : 0.0F, 1.0F / size};
+        block.shadowLayer = static_cast<std::int32_t>(views.shadows.size());
+        block.worldToShadow = view.matrix;
+        block.shadowNear = view.nearPlane;
+        block.shadowFar = view.farPlane;
+        block.shadowCentral = view.perspective ? 1.0F : 0.0F;
+        block.shadowTexel = 1.0F / size;
         FrameBlock shadow;
         shadow.viewProjection = view.matrix;
-        shadow.eye = glm::vec4(view.eye, 0.0F);
-        shadow.viewport = {size, size, 1.0F / size, 1.0F / size};
-        shadow.pixel = {view.pixelScale, view.pixelConstant, static_cast<float>(settings.frameIndex), 1.0F};
-        shadow.viewForward = glm::vec4(view.forward, 1.0F);
+        shadow.eye = view.eye;
+        shadow.viewForward = view.forward;
+        shadow.viewport = glm::vec2(size);
+        shadow.pixelSize = 1.0F / shadow.viewport;
+        shadow.pixelScale = view.pixelScale;
+        shadow.pixelConstant = view.pixelConstant;
+        shadow.frameIndex = settings.frameIndex;
         views.shadows.push_back(shadow);
     }
-    main.ambient = glm::vec4(ambient, 0.0F);
     return views;
 }
 

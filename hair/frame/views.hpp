@@ -2,6 +2,8 @@
 // The uniform block of set 0 (hair/shaders/frame.glsl) for the camera and for each shadowed light. Reversed depth.
 #pragma once
 
+#include "lighting/light.hpp"
+
 #include <pelage/hair/renderer.hpp>
 
 #include <glm/glm.hpp>
@@ -10,29 +12,25 @@
 
 namespace pelage::hair {
 
-struct LightBlock {
-    glm::vec4 position = {}, direction = {}, power = {};
-    glm::mat4 shadow = glm::mat4(1.0F);
-    glm::vec4 shadowDepth = {};
-};
 struct FrameBlock {
-    glm::mat4 viewProjection = glm::mat4(1.0F), inverseViewProjection = glm::mat4(1.0F);
-    glm::vec4 eye = {}, viewport = {}, pixel = {}, viewForward = {}, ambient = {};
+    using uint = std::uint32_t;
+    using vec2 = glm::vec2;
+    using vec3 = glm::vec3;
+    using mat4 = glm::mat4;
+#define PELAGE_FRAME_MEMBER(type, name) type name = {};
+#include "shaders/frame.def"
     LightBlock lights[maxLights] = {};
 };
-static_assert(sizeof(LightBlock) == 128 && sizeof(FrameBlock) == 208 + 128 * maxLights);
 
 struct FrameViews {
     FrameBlock main = {};
+    LightOptions lights = {};
     std::vector<FrameBlock> shadows = {};  // by layer of the shadow map
 };
 
 /// `shadowLights`: how many layers the shadow map has; the first that many lights that cast shadows get one.
 FrameViews makeViews(const Scene& scene, const FrameSettings& settings, std::uint32_t shadowSize,
                      std::uint32_t shadowLights);
-
-/// Lights of the scene that cast a shadow.
-std::uint32_t countShadowLights(const Scene& scene);
 
 /// Right-handed, looking along -z, depth 1 at the near plane and 0 at the far plane, clip-space +Y up.
 glm::mat4 perspectiveReversed(float verticalFov, float aspect, float nearPlane, float farPlane);

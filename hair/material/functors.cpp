@@ -4,6 +4,7 @@
 
 #include "functor_ports.hpp"
 #include "functors_fiber.hpp"
+#include "lighting/shadow.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -54,9 +55,11 @@ struct StrandIdVariation : Functor {
 // Exponential falloff leaves a tenth of the light `distance` metres behind the first surface: density = ln 10 /
 // distance.
 struct ShadowFalloff : Functor {
-    enum class Mode { Off, Hard, Pcf, Exponential };
+    using Mode = ShadowTechnique;
     static Words<Mode> modes() {
-        return {{"off", Mode::Off}, {"hard", Mode::Hard}, {"pcf", Mode::Pcf}, {"exponential", Mode::Exponential}};
+        Words<Mode> words;
+        for (const ShadowTechniqueInfo& info : shadowTechniques()) words.emplace_back(info.word, info.technique);
+        return words;
     }
     In<Mode> mode{this, "mode", modes()};
     In<float> distance{this, "distance"};
@@ -66,9 +69,10 @@ struct ShadowFalloff : Functor {
     Out<int> usedRadius{this, "radius"};
 
     void run(const Call& call) const {
+        const bool fades = shadowTechniques()[static_cast<std::size_t>(call[mode])].fades;
         const float tenth = std::max(call[distance], 1e-6F);
         call.pass(mode, usedMode);
-        call.set(density, call[mode] == Mode::Exponential ? std::numbers::ln10_v<float> / tenth : 0.0F);
+        call.set(density, fades ? std::numbers::ln10_v<float> / tenth : 0.0F);
         call.pass(radius, usedRadius);
     }
 };

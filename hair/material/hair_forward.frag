@@ -6,9 +6,8 @@
 #include "shaders/frame.glsl"
 #define VARYING in
 #include "shaders/varyings.glsl"
-#include "lighting/shadow.glsl"
 #include "lighting/environment.glsl"
-#include "lighting/light.glsl"
+#include "lighting/lights.glsl"
 #include "material_common.glsl"
 #include "fiber_material.glsl"
 #include "surface.glsl"
@@ -23,15 +22,12 @@ void main() {
     MomentRow row = fetchRow(m, length(cross(s.tangent, s.wo)));
     float h = pixelOffset(gl_FragCoord.xy, v_strand.x);
     vec3 radiance = vec3(0.0);
-    vec3 ambient = frame.ambient.rgb;
-    int count = int(frame.eye.w);
-    for (int i = 0; i < count; ++i) {
-        Incident incident = incidentLight(frame.lights[i], s.world);
-        float lit = shadowTransmittance(frame.lights[i], s.world, material.shadowDensity, material.shadowBias);
-        vec3 arriving = incident.irradiance * lit;
-        FiberAngles a = atOffset(fiberAngles(s.tangent, incident.direction, s.wo), h);
-        radiance += scatter(a, m, row, true) * arriving;
-        ambient += arriving * isotropic;
+    vec3 ambient = frame.ambient;
+    for (int i = 0; i < lightCount; ++i) {
+        Incident light = arrivingLight(i, s.world, material.shadowDensity, material.shadowBias);
+        FiberAngles a = atOffset(fiberAngles(s.tangent, light.direction, s.wo), h);
+        radiance += scatter(a, m, row, true) * light.irradiance;
+        ambient += light.irradiance * isotropic;
     }
     if (envOn) {
         // One sample in the direction of the normal. No TT, which would need what lies behind the hair (thesis section

@@ -6,9 +6,8 @@
 #include "shaders/frame.glsl"
 #define VARYING in
 #include "shaders/varyings.glsl"
-#include "lighting/shadow.glsl"
 #include "lighting/environment.glsl"
-#include "lighting/light.glsl"
+#include "lighting/lights.glsl"
 #include "material_common.glsl"
 #include "scattering/models/kajiya_kay.glsl"
 
@@ -42,14 +41,11 @@ layout(location = 0) out vec4 o_color;  // scene-linear, premultiplied
 void main() {
     Surface s = fetchSurface();
     vec3 radiance = vec3(0.0);
-    vec3 ambient = frame.ambient.rgb;
-    int count = int(frame.eye.w);
-    for (int i = 0; i < count; ++i) {
-        Incident incident = incidentLight(frame.lights[i], s.world);
-        float lit = shadowTransmittance(frame.lights[i], s.world, material.shadowDensity, material.shadowBias);
-        vec3 arriving = incident.irradiance * lit;
-        radiance += kajiyaKay(s, incident.direction) * arriving;
-        ambient += arriving * isotropic;
+    vec3 ambient = frame.ambient;
+    for (int i = 0; i < lightCount; ++i) {
+        Incident light = arrivingLight(i, s.world, material.shadowDensity, material.shadowBias);
+        radiance += kajiyaKay(s, light.direction) * light.irradiance;
+        ambient += light.irradiance * isotropic;
     }
     if (envOn) {
         radiance += kajiyaKay(s, s.normal) * environmentIrradiance(s.normal) *

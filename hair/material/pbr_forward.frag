@@ -6,9 +6,8 @@
 #include "shaders/frame.glsl"
 #define VARYING in
 #include "shaders/varyings.glsl"
-#include "lighting/shadow.glsl"
 #include "lighting/environment.glsl"
-#include "lighting/light.glsl"
+#include "lighting/lights.glsl"
 #include "material_common.glsl"
 #include "scattering/models/standard_pbr.glsl"
 
@@ -35,14 +34,11 @@ void main() {
     PbrParameters p = PbrParameters(s.color, material.metallic, material.roughness, material.fresnelF0,
                                     material.specularScale);
     vec3 radiance = vec3(0.0);
-    vec3 ambient = frame.ambient.rgb;
-    int count = int(frame.eye.w);
-    for (int i = 0; i < count; ++i) {
-        Incident incident = incidentLight(frame.lights[i], s.world);
-        float lit = shadowTransmittance(frame.lights[i], s.world, material.shadowDensity, material.shadowBias);
-        vec3 arriving = incident.irradiance * lit;
-        radiance += scatterStandardPbr(s.normal, incident.direction, s.wo, p) * arriving;
-        ambient += arriving * isotropic;
+    vec3 ambient = frame.ambient;
+    for (int i = 0; i < lightCount; ++i) {
+        Incident light = arrivingLight(i, s.world, material.shadowDensity, material.shadowBias);
+        radiance += scatterStandardPbr(s.normal, light.direction, s.wo, p) * light.irradiance;
+        ambient += light.irradiance * isotropic;
     }
     if (envOn) {
         // Diffuse from the irradiance; specular as if the map were the mirror direction, blurred to irradiance.

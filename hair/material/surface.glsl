@@ -17,7 +17,7 @@ vec3 safeNormalize(vec3 v, vec3 fallback) {
 Surface fetchSurface() {
     Surface s;
     s.world = v_world;
-    s.wo = safeNormalize(frame.eye.xyz - v_world, -frame.viewForward.xyz);
+    s.wo = safeNormalize(frame.eye - v_world, -frame.viewForward);
     s.tangent = safeNormalize(v_tangent, vec3(0.0, -1.0, 0.0));
     s.normal = safeNormalize(v_normal, s.wo);
     // Cards are seen from both sides; a strand's normal is perpendicular to it and never faces away (thesis 4.4).

@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: MIT
 // A scene file is checked against its schema first, so what follows reads values whose kinds are known and only has to
 // judge what a schema cannot say: names that must exist, directions that must not be zero.
+#include <pelage/base/json.hpp>
 #include <pelage/hair/scene_file.hpp>
 #include <pelage/hair/settings.hpp>
-#include <pelage/base/json.hpp>
 
 #include "scene_parts.hpp"
 
 #include <glm/gtc/matrix_transform.hpp>
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <map>
@@ -239,21 +240,34 @@ private:
         return std::nullopt;
     }
 
+    void unknownLight(const json::Value& kind) {
+        std::vector<std::string> words;
+        std::string list;
+        for (const LightKindInfo& info : lightKinds()) {
+            words.emplace_back(info.word);
+            list += (list.empty() ? "" : ", ") + words.back();
+        }
+        const std::string_view near = nearestName(kind.string, words);
+        fault("S008", kind.place, "there is no kind of light \"" + kind.string + "\", expected one of " + list,
+              near.empty() ? "choose one of them" : "did you mean \"" + std::string(near) + "\"?");
+    }
+
     void readLight(const json::Value& value) {
         Light light;
-        const bool isPoint = value.find("kind")->string == "point";
-        light.kind = isPoint ? Light::Kind::Point : Light::Kind::Directional;
-        const char* needed = isPoint ? "position" : "direction";
-        const char* foreign = isPoint ? "direction" : "position";
-        if (!value.find(needed)) {
-            fault("S004", value.place,
-                  std::string("a ") + (isPoint ? "point" : "directional") + " light lacks \"" + needed + "\"",
-                  std::string("add \"") + needed + "\": [x, y, z]");
-        }
-        if (const json::Member* odd = value.member(foreign)) {
-            fault("S005", odd->place,
-                  std::string("a ") + (isPoint ? "point" : "directional") + " light has no \"" + foreign + "\"",
-                  "remove it, or change \"kind\"");
+        const std::string& word = value.find("kind")->string;
+        const auto kinds = lightKinds();
+        const auto info = std::find_if(kinds.begin(), kinds.end(), [&](const auto& k) { return k.word == word; });
+        if (info == kinds.end()) return unknownLight(*value.find("kind"));
+        light.kind = info->kind;
+        for (const auto& [member, wanted] :
+             {std::pair{"position", info->hasPosition}, std::pair{"direction", info->hasDirection}}) {
+            const json::Member* found = value.member(member);
+            if (wanted && !found)
+                fault("S004", value.place, "a " + word + " light lacks \"" + member + "\"",
+                      std::string("add \"") + member + "\": [x, y, z]");
+            if (!wanted && found)
+                fault("S005", found->place, "a " + word + " light has no \"" + member + "\"",
+                      "remove it, or change \"kind\"");
         }
         light.position = vectorOr(value, "position", light.position);
         light.direction = direction(value, "direction").value_or(light.direction);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Shader options: specialization constants, set by name from the material type's options. What is off is gone from the
-// specialised shader. Word order equals the order of words in the material types.
+// specialised shader. Numbers of words are their places among the words of the material types.
 #ifndef PELAGE_OPTIONS_GLSL
 #define PELAGE_OPTIONS_GLSL
 
@@ -11,11 +11,11 @@
 #define ALPHA_BLEND 4
 layout(constant_id = 0) const int alphaMode = ALPHA_TEST;
 
-#define SHADOW_OFF 0
-#define SHADOW_HARD 1
-#define SHADOW_PCF 2
-#define SHADOW_EXPONENTIAL 3
-layout(constant_id = 1) const int shadowMode = SHADOW_EXPONENTIAL;
+#define PELAGE_SHADOW_TECHNIQUE(number, word, name, traits) const int SHADOW_##word = number;
+PELAGE_SHADOW_TECHNIQUE(0, off, Off, 0)
+#include "lighting/shadow_techniques.def"
+#undef PELAGE_SHADOW_TECHNIQUE
+layout(constant_id = 1) const int shadowMode = SHADOW_exponential;
 layout(constant_id = 2) const int pcfRadius = 1;  // window of 2 r + 1 texels
 
 layout(constant_id = 3) const bool envOn = true;
@@ -37,4 +37,6 @@ layout(constant_id = 10) const int attenuationModel = ATTENUATION_TAFURI_H0;
 // Set by the renderer, not by a material.
 layout(constant_id = 20) const bool isStrand = false;  // line geometry: coverage comes from the projected width
 layout(constant_id = 21) const int sampleCount = 1;    // of the target
+layout(constant_id = 22) const bool isLightView = false;  // drawn into the shadow map of a light
+// 23 to 25: lighting/light.glsl
 #endif

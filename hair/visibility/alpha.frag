@@ -26,7 +26,7 @@ void main() {
     o_coverage = vec4(0.0, 0.0, 0.0, alpha);
     int mask = -1;
     if (alphaMode == ALPHA_HASHED) {
-        uvec3 seed = uvec3(gl_FragCoord.xy, uint(v_strand.x * 16777215.0) + uint(frame.pixel.z) * 7919u);
+        uvec3 seed = uvec3(gl_FragCoord.xy, uint(v_strand.x * 16777215.0) + frame.frameIndex * 7919u);
         float u = isStrand ? max(hash01(seed), 1e-3) : hashedThreshold(v_object, material.alphaHashScale);
         if (sampleCount > 1) {
             mask = int(stochasticCoverage(alpha, u, pcg3d(seed).y));

@@ -27,7 +27,7 @@ void main() {
     v_object = a_position;
     v_coverage = 1.0;
     if (isStrand) {
-        float drawn = frame.viewForward.w > 0.5 ? object.lineWidth.y : object.lineWidth.x;
+        float drawn = isLightView ? object.lineWidth.y : object.lineWidth.x;
         v_coverage = clamp(a_strand.z / (metresPerPixel(world.xyz) * drawn), 0.0, 1.0);
     }
 }

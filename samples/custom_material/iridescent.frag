@@ -6,8 +6,7 @@
 #include "shaders/frame.glsl"
 #define VARYING in
 #include "shaders/varyings.glsl"
-#include "lighting/shadow.glsl"
-#include "lighting/light.glsl"
+#include "lighting/lights.glsl"
 
 layout(constant_id = 30) const bool filmOn = true;
 
@@ -29,19 +28,18 @@ vec3 film(float cosine) {
 }
 
 void main() {
-    vec3 tangent = normalize(v_tangent), wo = normalize(frame.eye.xyz - v_world);
+    vec3 tangent = normalize(v_tangent), wo = normalize(frame.eye - v_world);
     vec3 dye = mix(material.rootColor, material.tipColor, smoothstep(material.fade, 1.0, v_strand.y));
     float sinO = dot(tangent, wo), cosO = sqrt(max(1.0 - sinO * sinO, 0.0));
-    vec3 radiance = dye * frame.ambient.rgb * 0.5;
-    for (int i = 0; i < int(frame.eye.w); ++i) {
-        Incident incident = incidentLight(frame.lights[i], v_world);
-        float lit = shadowTransmittance(frame.lights[i], v_world, 40.0, 0.004);
-        float sinI = dot(tangent, incident.direction), cosI = sqrt(max(1.0 - sinI * sinI, 0.0));
+    vec3 radiance = dye * frame.ambient * 0.5;
+    for (int i = 0; i < lightCount; ++i) {
+        Incident light = arrivingLight(i, v_world, 40.0, 0.004);
+        float sinI = dot(tangent, light.direction), cosI = sqrt(max(1.0 - sinI * sinI, 0.0));
         vec3 scattered = dye * (cosI * 0.1013211836);
         float highlight = pow(clamp(cosI * cosO - sinI * sinO, 0.0, 1.0), material.gloss);
         vec3 tint = vec3(0.04);
-        if (filmOn) tint += material.filmStrength * 0.2 * film(dot(normalize(wo + incident.direction), wo));
-        radiance += (scattered + tint * highlight) * incident.irradiance * lit;
+        if (filmOn) tint += material.filmStrength * 0.2 * film(dot(normalize(wo + light.direction), wo));
+        radiance += (scattered + tint * highlight) * light.irradiance;
     }
     o_color = vec4(radiance, 1.0);
 }

@@ -13,6 +13,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace pelage::hair {
@@ -24,13 +25,28 @@ struct Camera {
 };
 
 struct Light {
-    enum class Kind : std::uint8_t { Directional, Point } kind = Kind::Directional;
-    glm::vec3 position = {};           // m; Point
-    glm::vec3 direction = {0, -1, 0};  // the way the light travels; Directional
+    /// The kinds of light_kinds.def.
+    enum class Kind : std::uint8_t {
+#define PELAGE_LIGHT_KIND(number, word, name, traits, power) name = number,
+#include <pelage/hair/light_kinds.def>
+#undef PELAGE_LIGHT_KIND
+    } kind = Kind::Directional;
+    glm::vec3 position = {};           // m; of kinds that have one
+    glm::vec3 direction = {0, -1, 0};  // the way the light travels; of kinds that have one
     glm::vec3 color = {1, 1, 1};       // scene-linear, times
     float intensity = 3.14159265F;     // W/m2 (Directional) or W/sr (Point)
     bool castsShadow = true;
 };
+
+struct LightKindInfo {
+    Light::Kind kind = Light::Kind::Directional;
+    std::string_view word = {};  ///< in scene files
+    bool hasPosition = false, hasDirection = false;
+    std::string_view power = {};  ///< what color times intensity is, with its unit
+};
+/// All kinds, in the order of their numbers.
+std::span<const LightKindInfo> lightKinds();
+const LightKindInfo& lightKind(Light::Kind kind);
 
 /// Distant radiance as 9 spherical-harmonics coefficients (real basis, bands 0..2), from which irradiance is exact to
 /// about 1 % (Ramamoorthi and Hanrahan 2001).
