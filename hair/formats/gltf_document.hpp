@@ -2,6 +2,7 @@
 // glTF through tinygltf, fenced in: what tinygltf does not check is checked here, before or after it runs.
 #pragma once
 
+#include <pelage/base/diagnostic.hpp>
 #include <pelage/hair/geometry.hpp>
 
 #include <span>

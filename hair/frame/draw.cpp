@@ -16,6 +16,35 @@ rhi::Result<rhi::BindGroup> Renderer::State::groupFor(std::map<const void*, rhi:
     return group;
 }
 
+rhi::Result<rhi::BindGroup> Renderer::State::objectGroup(ObjectState& object, const rhi::BindGroupLayout& layout,
+                                                         const rhi::Buffer& pieces) {
+    const bool strands = object.geometry->strands.has_value();
+    const StrandBuffers& b = object.moving.buffers();
+    const ObjectState::Group wanted = strands ? ObjectState::Group{layout.get(), b.points, b.starts, pieces, {}}
+                                              : ObjectState::Group{layout.get(), {}, {}, {}, {}};
+    for (const ObjectState::Group& each : object.groups) {
+        if (each.layout == wanted.layout && each.points == wanted.points && each.starts == wanted.starts &&
+            each.pieces == wanted.pieces)
+            return each.group;
+    }
+    rhi::BindGroupDescriptor descriptor = {.label = "object", .layout = layout};
+    const rhi::Buffer buffers[] = {object.block, b.points, b.starts, b.first, b.widths, b.colors, b.ids, pieces};
+    for (const rhi::BindGroupLayoutEntry& entry : layout.entries()) {
+        // What else a host's shader declares in this set is told by the error of createBindGroup().
+        if (entry.binding >= std::size(buffers) || !buffers[entry.binding]) continue;
+        const std::uint64_t size = entry.binding == 0 ? sizeof(ObjectBlock) : 0;
+        descriptor.entries.push_back({entry.binding, rhi::BufferBinding{buffers[entry.binding], 0, size}});
+    }
+    auto made = device.createBindGroup(descriptor);
+    if (!made) return made;
+    // Two sets of points times two sets of pieces, for each layout; buffers that are gone make room.
+    constexpr std::size_t most = 32;
+    if (object.groups.size() >= most) object.groups.erase(object.groups.begin());
+    object.groups.push_back(wanted);
+    object.groups.back().group = *made;
+    return made;
+}
+
 Outcome<rhi::BindGroup> Renderer::State::materialGroup(std::size_t index, const Look& look, std::uint32_t shader,
                                                        const rhi::BindGroupLayout& layout) {
     const ObjectState& object = objects[index];
@@ -23,7 +52,7 @@ Outcome<rhi::BindGroup> Renderer::State::materialGroup(std::size_t index, const 
     return bindings.bindGroup({index, layout.get(), shader}, layout, look.type, *object.material, *object.geometry,
                               uploads, [&]() -> MaterialBindings::Modules {
                                   // Both were made when the pipeline was asked for.
-                                  const auto vertex = modules.find(use.vertex), fragment = modules.find(use.fragment);
+                                  const auto vertex = modules.find(look.vertexFile(use)), fragment = modules.find(use.fragment);
                                   return {vertex == modules.end() ? rhi::ShaderModule() : vertex->second,
                                           fragment == modules.end() ? rhi::ShaderModule() : fragment->second};
                               });
@@ -36,9 +65,8 @@ rhi::Result<void> Renderer::State::draw(Scene& scene, passes::RasterContext& con
     rhi::RenderPassEncoder& encoder = context.encoder;
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         ObjectState& object = objects[i];
-        const Geometry& geometry = *object.geometry->source;
-        if (geometry.indices.empty()) continue;
-        if (!object.shown) continue;
+        if (object.geometry->empty() || !object.shown) continue;
+        const GpuGeometry& geometry = *object.geometry;
         for (const Look::Draw& wanted : object.shown->draws) {
             if (wanted.pass != context.pass.name || wanted.pipeline->state() != Pipelines::Entry::State::Ready)
                 continue;
@@ -65,21 +93,25 @@ rhi::Result<void> Renderer::State::draw(Scene& scene, passes::RasterContext& con
                 }
                 encoder.setBindGroup(2, *group);
             }
+            const bool sorted = shader.state.blend == materials::Blend::Premultiplied && object.sorted;
             if (const auto layout = made.bindGroupLayout(3)) {
-                auto group = groupFor(object.groups, layout, object.block, sizeof(ObjectBlock), "object");
+                const rhi::Buffer& pieces = !geometry.strands || sorted ? object.sorted : geometry.strands->pieces;
+                auto group = objectGroup(object, layout, pieces);
                 if (!group) return tl::unexpected(group.error());
                 encoder.setBindGroup(3, *group);
             }
-            encoder.setVertexBuffer(0, object.geometry->vertices);
-            const bool sorted = shader.state.blend == materials::Blend::Premultiplied && object.sortedIndices;
-            encoder.setIndexBuffer(sorted ? object.sortedIndices : object.geometry->indices, rhi::IndexFormat::Uint32);
-            if (geometry.topology == Topology::Lines) {
-                encoder.setLineWidth(shadow ? object.lineWidthShadow : object.lineWidthMain);
-                frame.segments += geometry.indices.size() / 2;
+            if (geometry.strands) {
+                // Two vertices at each place of the curve, both ends of the piece included.
+                const std::uint32_t segments = sorted ? 1 : geometry.strands->pieceSegments;
+                encoder.draw(2 * (segments * object.shown->subdivisions + 1),
+                             sorted ? object.sortedCount : geometry.strands->pieceCount);
+                frame.segments += geometry.strands->segments;
             } else {
-                frame.triangles += geometry.indices.size() / 3;
+                encoder.setVertexBuffer(0, geometry.vertices);
+                encoder.setIndexBuffer(sorted ? object.sorted : geometry.indices, rhi::IndexFormat::Uint32);
+                encoder.drawIndexed(geometry.indexCount);
+                frame.triangles += geometry.indexCount / 3;
             }
-            encoder.drawIndexed(static_cast<std::uint32_t>(geometry.indices.size()));
             ++context.draws;
             encoder.popDebugGroup();
         }

@@ -11,14 +11,19 @@ namespace pelage::hair {
 
 namespace {
 
-// The vertex buffer of every drawable: struct Vertex.
+// The vertex buffer of a mesh: struct Vertex.
 const rhi::VertexBufferLayout vertexLayout = {
     .arrayStride = sizeof(Vertex),
     .attributes = {{rhi::VertexFormat::Float32x3, offsetof(Vertex, position), 0},
                    {rhi::VertexFormat::Float32x3, offsetof(Vertex, normal), 1},
                    {rhi::VertexFormat::Float32x3, offsetof(Vertex, tangent), 2},
                    {rhi::VertexFormat::Float32x2, offsetof(Vertex, uv), 3},
-                   {rhi::VertexFormat::Float32x3, offsetof(Vertex, strandId), 4}}};
+                   {rhi::VertexFormat::Float32x2, offsetof(Vertex, strandId), 4}}};
+
+std::uint32_t subdivisionsOf(const GpuGeometry& geometry) {
+    const Strands* strands = strandsOf(geometry.source);
+    return strands != nullptr ? std::clamp(strands->subdivisions, 1U, kMaxSubdivisions) : 1U;
+}
 
 rhi::CompareFunction compareFor(materials::DepthTest test) {
     switch (test) {  // reversed depth: nearer is greater
@@ -60,6 +65,11 @@ bool sameStates(const materials::CompiledMaterial::Shader& a, const materials::C
 
 }  // namespace
 
+const std::string& Look::vertexFile(const materials::ShaderUse& use) const {
+    static const std::string ofMeshes = "hair.vert", ofStrands = "strands.vert";
+    return strands && use.vertex == ofMeshes ? ofStrands : use.vertex;
+}
+
 bool Look::isReady() const {
     return std::all_of(draws.begin(), draws.end(),
                        [](const Draw& draw) { return draw.pipeline->state() == Pipelines::Entry::State::Ready; });
@@ -76,14 +86,14 @@ const rhi::Error* Look::failure() const {
 bool Renderer::State::looksLike(const Look& look, const ObjectState& object,
                                 const materials::CompiledMaterial& material) const {
     return look.shadowsOff == shadowsOff && look.environmentOff == environmentOff &&
-           look.isEmpty == object.geometry->source->indices.empty() &&
+           look.isEmpty == object.geometry->empty() && look.subdivisions == subdivisionsOf(*object.geometry) &&
            std::equal(look.shaders.begin(), look.shaders.end(), material.shaders.begin(), material.shaders.end(),
                       sameStates);
 }
 
 Outcome<void> Renderer::State::updateLook(ObjectState& object, const Object& from) {
     if (auto checked = checkType(from.material.sharedType()); !checked) return checked;
-    const bool strands = object.geometry->source->topology == Topology::Lines;
+    const bool strands = object.geometry->strands.has_value();
     // What was drawn with another type or topology cannot be bound to this one's values.
     for (std::optional<Look>* look : {&object.shown, &object.next}) {
         if (*look && ((*look)->type != from.material.sharedType() || (*look)->strands != strands)) look->reset();
@@ -92,14 +102,15 @@ Outcome<void> Renderer::State::updateLook(ObjectState& object, const Object& fro
     if (!newest || !looksLike(*newest, object, *object.material)) {
         object.next = Look{.type = from.material.sharedType(),
                            .strands = strands,
-                           .isEmpty = object.geometry->source->indices.empty(),
+                           .isEmpty = object.geometry->empty(),
+                           .subdivisions = subdivisionsOf(*object.geometry),
                            .shadowsOff = shadowsOff,
                            .environmentOff = environmentOff,
                            .shaders = object.material->shaders};
     }
     for (std::optional<Look>* look : {&object.shown, &object.next}) {
         if (!*look || (*look)->graph == graphBuilds) continue;
-        if (auto asked = requestPipelines(**look, object.geometry->source->name); !asked)
+        if (auto asked = requestPipelines(**look, nameOf(object.geometry->source)); !asked)
             return tl::unexpected(toDiagnostic(asked.error()));
     }
     if (!object.next) return {};
@@ -167,15 +178,17 @@ rhi::Result<rhi::RenderPipelineDescriptor> Renderer::State::describePipeline(
     if (look.strands) state.alphaToCoverage = false;
     constants.push_back({"isStrand", look.strands ? 1.0 : 0.0});
     constants.push_back({"sampleCount", static_cast<double>(targets.samples)});
+    constants.push_back({"subdivisions", static_cast<double>(look.subdivisions)});
 
-    auto vertex = module(shader.use.vertex);
+    auto vertex = module(look.vertexFile(shader.use));
     if (!vertex) return tl::unexpected(vertex.error());
     rhi::RenderPipelineDescriptor descriptor;
     descriptor.vertex = {*vertex, declaredConstants(*vertex, constants)};
-    descriptor.vertexBuffers = {vertexLayout};
+    if (!look.strands) descriptor.vertexBuffers = {vertexLayout};
+    // Ribbons turn towards the camera: which side of one is seen says nothing.
     descriptor.primitive = {
-        .topology = look.strands ? rhi::PrimitiveTopology::LineList : rhi::PrimitiveTopology::TriangleList,
-        .cullMode = state.cull};
+        .topology = look.strands ? rhi::PrimitiveTopology::TriangleStrip : rhi::PrimitiveTopology::TriangleList,
+        .cullMode = look.strands ? rhi::CullMode::None : state.cull};
     if (targets.depth != rhi::TextureFormat::Undefined) {
         descriptor.depthStencil = {.format = targets.depth,
                                    .depthWriteEnabled = state.depthWrite && !targets.depthReadOnly,

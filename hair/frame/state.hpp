@@ -8,6 +8,7 @@
 #include "pipelines.hpp"
 #include "resources/uploads.hpp"
 #include "views.hpp"
+#include "visibility/cards/sorting.hpp"
 
 #include <pelage/hair/renderer.hpp>
 
@@ -25,7 +26,8 @@ inline Diagnostic firstError(const Diagnostics& found) {
 
 struct ObjectBlock {
     glm::mat4 model = glm::mat4(1.0F), normalMatrix = glm::mat4(1.0F);
-    glm::vec4 lineWidth = {};
+    glm::vec4 center = {};  // hair/shaders/object.glsl
+    glm::uvec4 strides = {};
 };
 
 // An object as far as pipelines go: the shaders of its material as they were, and a pipeline for each pass that draws
@@ -33,6 +35,7 @@ struct ObjectBlock {
 struct Look {
     std::shared_ptr<const materials::MaterialType> type = {};
     bool strands = false, isEmpty = false;
+    std::uint32_t subdivisions = 1;
     bool shadowsOff = false, environmentOff = false;
     std::vector<materials::CompiledMaterial::Shader> shaders = {};
     std::uint64_t graph = 0;  // the build of the graph that `draws` is for
@@ -44,6 +47,8 @@ struct Look {
     std::vector<Draw> draws = {};
     bool failureSaid = false;
 
+    /// Material types name the vertex shader of meshes; strands have one of their own in its place.
+    const std::string& vertexFile(const materials::ShaderUse& use) const;
     bool isReady() const;
     const rhi::Error* failure() const;
 };
@@ -51,10 +56,17 @@ struct Look {
 // What an object keeps from frame to frame; found by its index in the scene.
 struct ObjectState {
     rhi::Buffer block = {};
-    std::map<const void*, rhi::BindGroup> groups = {};  // by layout
-    rhi::Buffer sortedIndices = {};
+    // By layout and, for strands, the buffers that change: points take turns, pieces are as cut or as sorted.
+    struct Group {
+        const void* layout = nullptr;
+        rhi::Buffer points = {}, starts = {}, pieces = {};
+        rhi::BindGroup group = {};
+    };
+    std::vector<Group> groups = {};
+    MovingPoints moving = {};
+    rhi::Buffer sorted = {};                    // indices of a mesh, or pieces of one segment each
+    std::uint32_t sortedCount = 0;              // pieces
     std::optional<Look> shown = {}, next = {};  // `next` waits for its pipelines
-    float lineWidthMain = 1, lineWidthShadow = 1;
     const GpuGeometry* geometry = nullptr;
     const materials::CompiledMaterial* material = nullptr;
 };
@@ -71,6 +83,7 @@ struct Renderer::State {
     Uploads uploads;
     MaterialBindings bindings;
     ShaderCode hostShaders;
+    BackToFront order;
     std::map<std::string, rhi::ShaderModule> modules;
     PipelineMode mode = PipelineMode::Synchronous;
     Pipelines pipelines;
@@ -97,7 +110,8 @@ struct Renderer::State {
     rhi::Result<rhi::ShaderModule> module(const std::string& file);
     Outcome<void> buildGraph(const Scene& scene, const FrameSettings& settings, std::uint32_t& shadowSize,
                              std::uint32_t& shadowLights);
-    Outcome<void> prepareObjects(Scene& scene, const FrameViews& frameViews);
+    Outcome<void> prepareObjects(Scene& scene, const FrameViews& frameViews, rhi::CommandEncoder& encoder);
+    Outcome<void> sortObject(const Object& from, ObjectState& state, const glm::vec3& forward);
     Outcome<void> writeView(std::size_t index, const FrameBlock& block);
     // renderer_looks.cpp
     Outcome<void> updateLook(ObjectState& object, const Object& from);
@@ -113,6 +127,8 @@ struct Renderer::State {
     rhi::Result<rhi::BindGroup> groupFor(std::map<const void*, rhi::BindGroup>& cache,
                                          const rhi::BindGroupLayout& layout, const rhi::Buffer& buffer,
                                          std::uint64_t size, const char* label);
+    rhi::Result<rhi::BindGroup> objectGroup(ObjectState& object, const rhi::BindGroupLayout& layout,
+                                            const rhi::Buffer& pieces);
     rhi::Result<void> draw(Scene& scene, passes::RasterContext& context);
 };
 

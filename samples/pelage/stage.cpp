@@ -48,7 +48,7 @@ Outcome<void> applyOverrides(hair::Scene& scene, const std::vector<std::string>&
         auto assignment = parseAssignment(text, "--set");
         if (!assignment) return tl::unexpected(assignment.error());
         for (hair::Object& object : scene.objects) {
-            if (!object.geometry->isHair) continue;
+            if (!hair::isHair(object.geometry)) continue;
             auto diagnostic = object.material.setFromText(assignment->first, assignment->second);
             if (!diagnostic) continue;
             if (diagnostic->severity == Severity::Error) return tl::unexpected(Failure(*diagnostic));
@@ -104,7 +104,7 @@ Outcome<void> applyMaterial(hair::Scene& scene, const std::string& material, hai
     auto parsed = library.material(material);
     if (!parsed) return tl::unexpected(Failure(parsed.error()));
     for (hair::Object& object : scene.objects) {
-        if (object.geometry->isHair) object.material = parsed->material;
+        if (hair::isHair(object.geometry)) object.material = parsed->material;
     }
     return {};
 }
