@@ -43,6 +43,8 @@ public:
         if (keptStrands == 0) return;
         strands_.boundsMin = all_.low;
         strands_.boundsMax = all_.high;
+        // A merged point may have stuck out by a millionth.
+        if (mergedPoints_ > 0) strands_.updateBounds();
     }
 
     std::uint64_t seen_ = 0, notFinite_ = 0, tooShort_ = 0, noLength_ = 0, mergedPoints_ = 0, badWidths_ = 0;

@@ -3,7 +3,6 @@
 // along whatever it meets. And hair that is tied: a way over the scalp to one point, then a falling tail.
 #include "guides.hpp"
 
-#include "geometry/vectors.hpp"
 #include "head.hpp"
 
 #include <algorithm>
@@ -23,17 +22,24 @@ vec3 onSurface(const vec3& v, const vec3& normal) {
     return v - normal * glm::dot(v, normal);
 }
 
+/// Single precision, unlike unitOr(): the grooms of a seed are these very bits, and strands that slide over the head
+/// carry the least difference far.
+vec3 unit(const vec3& v, const vec3& fallback) {
+    const float length = glm::length(v);
+    return length > 1e-6F ? v / length : fallback;
+}
+
 /// Where a comb would leave the hair at this point of the scalp: away from the parting, round the whorl, off the face.
 vec3 combed(const Root& root, const vec3& normal) {
     const vec3 along = kWhorl - kPartingFront;
     const float t = std::clamp(glm::dot(root.position - kPartingFront, along) / glm::dot(along, along), 0.0F, 1.0F);
     vec3 away = root.position - (kPartingFront + t * along);
-    away = unitOr(away, vec3(root.side, 0, 0));
-    if (t < 0.98F) away = unitOr(away + vec3(1.2F * root.side, 0, 0), away);  // a parting parts to the sides
+    away = unit(away, vec3(root.side, 0, 0));
+    if (t < 0.98F) away = unit(away + vec3(1.2F * root.side, 0, 0), away);  // a parting parts to the sides
     const float front = std::clamp((root.position.z + 0.02F) / 0.10F, 0.0F, 1.0F);
     const vec3 back = vec3(0.75F * root.side, 0.0F, -0.55F) * front;
     const vec3 swirl = t > 0.98F ? 0.35F * glm::cross(normal, away) : vec3(0);
-    return unitOr(onSurface(away + back + swirl + 0.5F * kDown, normal), kDown);
+    return unit(onSurface(away + back + swirl + 0.5F * kDown, normal), kDown);
 }
 
 /// Pushes strands that hang in front of the face to their side: nobody combs hair over the nose.
@@ -72,21 +78,21 @@ std::vector<vec3> growGuide(const Root& root, float length, std::uint32_t points
     const float step = length / static_cast<float>(kSteps);
     const vec3 normal = headNormal(root.position);
     const float lift = random.between(0.003F, 0.011F);  // m, how far hair lies off the head: the layers of a groom
-    const vec3 comb = unitOr(combed(root, normal) + 0.12F * random.onSphere(), kDown);
+    const vec3 comb = unit(combed(root, normal) + 0.12F * random.onSphere(), kDown);
     const vec3 drift = onSurface(random.onSphere(), kDown) * 0.06F;
     std::vector<vec3> curve = {root.position};
-    vec3 p = root.position, direction = unitOr(comb + 0.40F * normal, normal);
+    vec3 p = root.position, direction = unit(comb + 0.40F * normal, normal);
     for (std::uint32_t k = 0; k < kSteps; ++k) {
         const float s = step * static_cast<float>(k);  // m from the root
         const float falls = 1.0F - std::exp(-std::max(s - 0.015F, 0.0F) / 0.055F);
-        const vec3 wanted = unitOr(glm::mix(comb, kDown + drift, falls) + offTheFace(p, root.side), kDown);
-        direction = unitOr(glm::mix(direction, wanted, std::min(1.0F, step / 0.016F)), wanted);
+        const vec3 wanted = unit(glm::mix(comb, kDown + drift, falls) + offTheFace(p, root.side), kDown);
+        direction = unit(glm::mix(direction, wanted, std::min(1.0F, step / 0.016F)), wanted);
         const float margin = lift * (1.0F - std::exp(-s / 0.020F)) + 0.0008F;
         const float distance = headDistance(p + direction * step);
         if (distance < margin) {
             const vec3 n = headNormal(p + direction * step);
             const float inward = std::min(glm::dot(direction, n), 0.0F);
-            direction = unitOr(direction - n * inward, unitOr(onSurface(comb, n), kDown));
+            direction = unit(direction - n * inward, unit(onSurface(comb, n), kDown));
         }
         p = keepOutside(p + direction * step, margin);
         curve.push_back(p);
@@ -108,7 +114,7 @@ std::vector<vec3> growPonytail(const Root& root, float tail, std::uint32_t point
     constexpr int kScalpSteps = 26, kTailSteps = 40;
     std::vector<vec3> curve;
     const float shape = random.unit();
-    const vec3 around = unitOr(onSurface(root.position - kTie, glm::normalize(vec3(0, 0.30F, -0.95F))), vec3(1, 0, 0));
+    const vec3 around = unit(onSurface(root.position - kTie, glm::normalize(vec3(0, 0.30F, -0.95F))), vec3(1, 0, 0));
     const vec3 ring = around * (0.0095F * std::sqrt(random.between(0.05F, 1.0F)));  // place within the tie
     for (int k = 0; k <= kScalpSteps; ++k) {
         const float t = static_cast<float>(k) / kScalpSteps;
@@ -123,8 +129,8 @@ std::vector<vec3> growPonytail(const Root& root, float tail, std::uint32_t point
     for (int k = 1; k <= kTailSteps; ++k) {
         const float t = static_cast<float>(k) / kTailSteps, s = tail * t;
         const vec3 center = tailMiddle(s);
-        const vec3 heading = unitOr(tailMiddle(s + 0.002F) - center, kDown);
-        const vec3 up = unitOr(glm::cross(side, heading), kDown);
+        const vec3 heading = unit(tailMiddle(s + 0.002F) - center, kDown);
+        const vec3 up = unit(glm::cross(side, heading), kDown);
         // The ring's plane turns with the tail; the bundle opens to some 3 cm and closes towards the tip.
         const float open = (1.0F + 1.9F * fan * glm::smoothstep(0.0F, 0.6F, t)) * (1.0F - 0.6F * t * t);
         const float y = glm::dot(ring, vec3(0, 0.95F, 0.30F));

@@ -45,9 +45,8 @@ Outcome frames(const std::string& treeName, std::optional<std::uint64_t> drop = 
         auto groom = hair::makeGroom({.style = hair::Style::Wavy, .strands = 40, .pointsPerStrand = 6});
         hair::Scene scene;
         const auto add = [&](const char* name, hair::Geometry geometry, const char* preset) {
-            scene.objects.push_back({.name = name,
-                                     .geometry = std::move(geometry),
-                                     .material = good(library.material(preset)).material});
+            scene.objects.push_back(
+                {.name = name, .geometry = std::move(geometry), .material = good(library.material(preset)).material});
         };
         add("strands", std::make_shared<hair::Strands>(groom), "brown");
         add("more", std::make_shared<hair::Strands>(groom), "blond");

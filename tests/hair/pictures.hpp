@@ -21,7 +21,7 @@ materials::Material material(const std::string& preset,
 
 /// Geometry made once per process.
 std::shared_ptr<const hair::Strands> strands();  // a wavy groom of 3,000 strands
-std::shared_ptr<const hair::Mesh> cards();    // baked from it
+std::shared_ptr<const hair::Mesh> cards();       // baked from it
 std::shared_ptr<const hair::Mesh> head();
 
 /// One card of 2 m in the plane z = 0, normal +z, root at -x; its corners take turns at the tangents.
