@@ -82,10 +82,10 @@ protected:
     }
     /// The mean over places within a pixel, so that a line along the raster is not met by all samples or by none.
     static double meanAreaOf(const hair::Geometry& geometry) {
-        constexpr int places = 8;
+        constexpr int places = 16;
         double sum = 0;
         for (int i = 0; i < places; ++i) {
-            const glm::vec2 offset = glm::fract(float(i) / places * glm::vec2(1, 3)) * float(kPixel);
+            const glm::vec2 offset = glm::fract((float(i) + 0.5F) / places * glm::vec2(1, 4)) * float(kPixel);
             sum += areaOf(pictureOf(geometry, glm::translate(glm::mat4(1.0F), glm::vec3(offset, 0))));
         }
         return sum / places;
