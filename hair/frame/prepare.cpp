@@ -84,7 +84,8 @@ Outcome<void> Renderer::State::prepareObjects(Scene& scene, const FrameViews& fr
         const Strands* strands = strandsOf(object.geometry);
         if (strands != nullptr && !(*geometry)->empty()) {
             const StrandBuffers& rest = (*geometry)->strands->buffers;
-            if (auto moved = state.moving.update(device, encoder, object, *strands, rest); !moved) return moved;
+            if (auto moved = state.moving.update(device, encoder, object.name, object.moved, *strands, rest); !moved)
+                return moved;
         }
         state.material = &object.material.compile();
         if (auto updated = updateLook(state, object); !updated) return updated;

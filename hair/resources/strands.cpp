@@ -151,22 +151,22 @@ Outcome<GpuStrands> uploadStrands(const rhi::Device& device, const Strands& stra
     return result;
 }
 
-Outcome<rhi::Buffer> MovingPoints::next(const rhi::Device& device, const std::string& label, std::uint64_t bytes) {
+Outcome<rhi::Buffer> MovingPoints::next(const rhi::Device& device, const std::string& name, std::uint64_t bytes) {
     turn_ = 1 - turn_;
     rhi::Buffer& buffer = turns_[turn_];
     if (buffer && buffer.size() == bytes) return buffer;
-    auto made = device.createBuffer({.label = label, .size = bytes, .usage = kUsage | BufferUsage::CopyDst});
+    auto made = device.createBuffer({.label = name + " points", .size = bytes, .usage = kUsage | BufferUsage::CopyDst});
     if (!made) return failed(made);
     buffer = *made;
     return buffer;
 }
 
-Outcome<void> MovingPoints::updateStarts(const rhi::Device& device, const Object& object, const Strands& strands) {
-    const auto& ranges = object.moved.ranges;
+Outcome<void> MovingPoints::updateStarts(const rhi::Device& device, const std::string& name,
+                                         std::span<const glm::uvec2> ranges, const Strands& strands) {
     if (starts_ && std::equal(ranges.begin(), ranges.end(), ranges_.begin(), ranges_.end())) return {};
     if (ranges.size() != strands.strandCount()) {
         return misfit("H104",
-                      "the object \"" + object.name + "\" has " + std::to_string(ranges.size()) +
+                      "the object \"" + name + "\" has " + std::to_string(ranges.size()) +
                           " ranges of moved points, expected the " + std::to_string(strands.strandCount()) +
                           " of its strands",
                       "give one range for each strand");
@@ -176,41 +176,40 @@ Outcome<void> MovingPoints::updateStarts(const rhi::Device& device, const Object
         const std::uint32_t expected = strands.first[s + 1] - strands.first[s];
         if (ranges[s].y < ranges[s].x || ranges[s].y - ranges[s].x != expected) {
             return misfit("H104",
-                          "strand " + std::to_string(s) + " of the object \"" + object.name +
-                              "\" has the moved points " + std::to_string(ranges[s].x) + " to " +
-                              std::to_string(ranges[s].y) + ", expected " + std::to_string(expected) + " of them",
+                          "strand " + std::to_string(s) + " of the object \"" + name + "\" has the moved points " +
+                              std::to_string(ranges[s].x) + " to " + std::to_string(ranges[s].y) + ", expected " +
+                              std::to_string(expected) + " of them",
                           "a strand keeps its number of points");
         }
         end = std::max<std::uint64_t>(end, ranges[s].y);
     }
     ranges_.assign(ranges.begin(), ranges.end());
     pointCount_ = end;
-    auto made = uploadBuffer(device, object.name + " ranges", kUsage, std::as_bytes(std::span(ranges_)));
+    auto made = uploadBuffer(device, name + " ranges", kUsage, std::as_bytes(std::span(ranges_)));
     if (!made) return tl::unexpected(made.error());
     starts_ = *made;
     return {};
 }
 
-Outcome<void> MovingPoints::update(const rhi::Device& device, rhi::CommandEncoder& encoder, const Object& object,
-                                   const Strands& strands, const StrandBuffers& rest) {
+Outcome<void> MovingPoints::update(const rhi::Device& device, rhi::CommandEncoder& encoder, const std::string& name,
+                                   const MovedPoints& moved, const Strands& strands, const StrandBuffers& rest) {
     const StrandBuffers last = std::move(now_);
     now_ = rest;
-    const MovedPoints& moved = object.moved;
     if (moved.buffer) {
         if (!moved.ranges.empty()) {
-            if (auto updated = updateStarts(device, object, strands); !updated) return updated;
+            if (auto updated = updateStarts(device, name, moved.ranges, strands); !updated) return updated;
             now_.starts = starts_;
             now_.startStride = 2;
         }
         const std::uint64_t bytes = 12 * (moved.ranges.empty() ? strands.points.size() : pointCount_);
         if (moved.buffer.size() < bytes) {
             return misfit("H104",
-                          "the buffer \"" + moved.buffer.label() + "\" lent to the object \"" + object.name +
-                              "\" has " + std::to_string(moved.buffer.size()) + " bytes, expected at least " +
+                          "the buffer \"" + moved.buffer.label() + "\" lent to the object \"" + name + "\" has " +
+                              std::to_string(moved.buffer.size()) + " bytes, expected at least " +
                               std::to_string(bytes),
                           "float3 at a stride of 12 bytes for every point");
         }
-        auto own = next(device, object.name + " points", bytes);
+        auto own = next(device, name, bytes);
         if (!own) return tl::unexpected(own.error());
         // A copy, because the host overwrites its buffer and velocities need what was in it.
         encoder.copyBufferToBuffer(moved.buffer, 0, *own, 0, bytes);
@@ -218,13 +217,13 @@ Outcome<void> MovingPoints::update(const rhi::Device& device, rhi::CommandEncode
     } else if (!moved.points.empty()) {
         if (moved.points.size() != strands.points.size()) {
             return misfit("H104",
-                          "the object \"" + object.name + "\" has " + std::to_string(moved.points.size()) +
+                          "the object \"" + name + "\" has " + std::to_string(moved.points.size()) +
                               " moved points, expected the " + std::to_string(strands.points.size()) +
                               " of its strands",
                           "a strand keeps its number of points");
         }
         const auto bytes = std::as_bytes(moved.points);
-        auto own = next(device, object.name + " points", bytes.size());
+        auto own = next(device, name, bytes.size());
         if (!own) return tl::unexpected(own.error());
         if (auto written = writeBuffer(device, *own, bytes); !written) return written;
         now_.points = *own;

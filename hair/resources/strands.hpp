@@ -42,13 +42,14 @@ class MovingPoints {
 public:
     /// Takes this frame's points into `buffers`, and makes those of the last frame the previous ones. H104 when they do
     /// not fit the strands.
-    Outcome<void> update(const rhi::Device& device, rhi::CommandEncoder& encoder, const Object& object,
-                         const Strands& strands, const StrandBuffers& rest);
+    Outcome<void> update(const rhi::Device& device, rhi::CommandEncoder& encoder, const std::string& name,
+                         const MovedPoints& moved, const Strands& strands, const StrandBuffers& rest);
     const StrandBuffers& buffers() const { return now_; }
 
 private:
-    Outcome<void> updateStarts(const rhi::Device& device, const Object& object, const Strands& strands);
-    Outcome<rhi::Buffer> next(const rhi::Device& device, const std::string& label, std::uint64_t bytes);
+    Outcome<void> updateStarts(const rhi::Device& device, const std::string& name, std::span<const glm::uvec2> ranges,
+                               const Strands& strands);
+    Outcome<rhi::Buffer> next(const rhi::Device& device, const std::string& name, std::uint64_t bytes);
 
     StrandBuffers now_ = {};
     std::array<rhi::Buffer, 2> turns_ = {};

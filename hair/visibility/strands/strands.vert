@@ -23,6 +23,11 @@ const float least = 1e-20;  // squared lengths below have no direction
 
 vec3 pointAt(uint i) { return vec3(points[3u * i], points[3u * i + 1u], points[3u * i + 2u]); }
 
+vec3 colorAt(uint i) {
+    uint at = 3u * i * object.strides.z;
+    return vec3(colors[at], colors[at + 1u], colors[at + 2u]);
+}
+
 // Vertex k of the curve of the strand with points start..start + last, clamped to its ends, and the derivative there:
 // uniform Catmull-Rom with doubled end points, as in geometry/curve.cpp.
 vec3 onCurve(uint start, int last, int k, out vec3 derivative) {
@@ -66,9 +71,21 @@ void main() {
     int k = min(int(piece.y) * subdivisions + (gl_VertexIndex >> 1), last * subdivisions);
     float side = (gl_VertexIndex & 1) == 0 ? 0.5 : -0.5;
 
-    vec3 derivative, unused;
-    precise vec3 here = onCurve(start, last, k, derivative);
-    precise vec3 before = onCurve(start, last, k - 1, unused), after = onCurve(start, last, k + 1, unused);
+    // Loads are what this shader spends most on: without subdivisions a place of the curve is a point, and the derivative
+    // there leads from the point before to the point after.
+    precise vec3 here, before, after;
+    vec3 derivative;
+    if (subdivisions == 1) {
+        here = pointAt(start + uint(k));
+        before = pointAt(start + uint(max(k - 1, 0)));
+        after = pointAt(start + uint(min(k + 1, last)));
+        derivative = 0.5 * (after - before);
+    } else {
+        vec3 unused;
+        here = onCurve(start, last, k, derivative);
+        before = onCurve(start, last, k - 1, unused);
+        after = onCurve(start, last, k + 1, unused);
+    }
 
     // The forward pass tests its depth for equality against the depth pass: the same module and no contraction make the
     // positions equal to the bit.
@@ -92,14 +109,21 @@ void main() {
     precise float mitre = 1.0 / max(along.x * outward.x + along.y * outward.y, 0.5);
     precise vec2 across = vec2(along.y, -along.x);
 
-    int i = min(k / subdivisions, last - 1);
-    precise float t = float(k - i * subdivisions) / float(subdivisions);
-    uint at = from + uint(i);
-    precise float width =
-        mix(widths[at * object.strides.y], widths[(at + 1u) * object.strides.y], t);
+    uint at = from + uint(k);
+    precise float width;
+    vec3 color;
+    if (subdivisions == 1) {
+        width = widths[at * object.strides.y];
+        color = colorAt(at);
+    } else {
+        int i = min(k / subdivisions, last - 1);
+        precise float t = float(k - i * subdivisions) / float(subdivisions);
+        at = from + uint(i);
+        width = mix(widths[at * object.strides.y], widths[(at + 1u) * object.strides.y], t);
+        color = mix(colorAt(at), colorAt(at + 1u), t);
+    }
     // A circle across the strand becomes an ellipse under the model matrix; its area tells its mean diameter.
-    vec3 lastResort = unitOr(pointAt(start + uint(last)) - pointAt(start), vec3(0.0, -1.0, 0.0));
-    precise vec3 tangent = unitOr(derivative, unitOr(after - before, lastResort));
+    precise vec3 tangent = unitOr(derivative, unitOr(after - before, vec3(0.0, -1.0, 0.0)));
     precise vec3 stretched = mat3(object.model) * tangent;
     precise float stretch = sqrt(dot(stretched, stretched));
     width *= sqrt(object.center.w / max(stretch, 1e-12));
@@ -119,7 +143,5 @@ void main() {
     v_uv = v_strand;
     v_object = here;
     v_coverage = projected / drawn;
-    uint c0 = 3u * at * object.strides.z, c1 = 3u * (at + 1u) * object.strides.z;
-    v_color = mix(vec3(colors[c0], colors[c0 + 1u], colors[c0 + 2u]),
-                  vec3(colors[c1], colors[c1 + 1u], colors[c1 + 2u]), t);
+    v_color = color;
 }
