@@ -317,7 +317,7 @@ private:
     int depth_ = 0;
 };
 
-Outcome<Condition> Condition::parse(std::string_view text, const ConditionNames& names) {
+Result<Condition> Condition::parse(std::string_view text, const ConditionNames& names) {
     Condition condition;
     if (text.size() > longest) {
         return tl::unexpected<Diagnostic>(

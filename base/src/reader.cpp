@@ -196,7 +196,7 @@ tl::unexpected<Diagnostics> fail(Diagnostic diagnostic) {
 
 }  // namespace
 
-Checked<Document> parse(std::string_view text, std::string_view file) {
+Result<Document> parse(std::string_view text, std::string_view file) {
     constexpr std::string_view byteOrderMark = "\xEF\xBB\xBF";
     if (text.substr(0, byteOrderMark.size()) == byteOrderMark) text.remove_prefix(byteOrderMark.size());
     const Lines lines(text);
@@ -224,7 +224,7 @@ Checked<Document> parse(std::string_view text, std::string_view file) {
     return fail(std::move(why));
 }
 
-Checked<Document> parseFile(const std::string& path) {
+Result<Document> parseFile(const std::string& path) {
     struct Closer {
         void operator()(std::FILE* file) const { std::fclose(file); }
     };

@@ -362,8 +362,8 @@ struct Schema::Compiled {
     Patterns patterns = {};
 };
 
-Checked<Schema> Schema::parse(std::string_view text, std::string_view file) {
-    Checked<Document> document = json::parse(text, file);
+Result<Schema> Schema::parse(std::string_view text, std::string_view file) {
+    Result<Document> document = json::parse(text, file);
     if (!document) return tl::unexpected<Diagnostics>(std::move(document.error()));
     auto compiled = std::make_shared<Compiled>();
     compiled->document = std::move(*document);

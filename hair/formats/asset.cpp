@@ -126,12 +126,12 @@ std::string assetEndings() {
     return text;
 }
 
-Outcome<LoadedAsset> loadAsset(const std::string& path) {
+Result<LoadedAsset> loadAsset(const std::string& path) {
     const std::string ending = lowerEnding(path);
     const auto* const format = std::find_if(std::begin(kFormats), std::end(kFormats),
                                             [&](const Format& each) { return each.ending == ending; });
     if (format == std::end(kFormats)) {
-        return tl::unexpected(fault("A001", path,
+        return tl::unexpected(fault("A100", path,
                                     "the ending \"" + ending + "\" is not known, expected " + assetEndings(),
                                     "convert the asset, or correct its ending"));
     }
@@ -149,14 +149,14 @@ Outcome<LoadedAsset> loadAsset(const std::string& path) {
     return loaded;
 }
 
-Outcome<Strands> reading::strandsOnly(Reader& reader, Source source, const std::string& name) {
+Result<Strands> reading::strandsOnly(Reader& reader, Source source, const std::string& name) {
     Diagnostics notes;
     auto asset = reader(source, name, notes);
     if (!asset) return tl::unexpected(std::move(asset.error()));
     return std::get<Strands>(std::move(*asset));
 }
 
-Outcome<Strands> reading::strandsOnly(Reader& reader, const std::string& path) {
+Result<Strands> reading::strandsOnly(Reader& reader, const std::string& path) {
     return Source::open(path).and_then([&](Source&& source) { return strandsOnly(reader, std::move(source), path); });
 }
 

@@ -107,7 +107,7 @@ bool isWidth(float width) {
     return usable(width) && width > 0;
 }
 
-Outcome<Strands> cleaned(Strands&& read, char family, Diagnostics& notes) {
+Result<Strands> cleaned(Strands&& read, char family, Diagnostics& notes) {
     Cleaner cleaner(read);
     cleaner.run();
     const auto code = [&](const char* number) { return family + std::string(number); };

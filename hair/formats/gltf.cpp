@@ -54,7 +54,7 @@ public:
         cards_.name = name;
     }
 
-    Outcome<Mesh> read() {
+    Result<Mesh> read() {
         if (auto fault = walkScene()) return tl::unexpected(std::move(*fault));
         if (cards_.indices.empty()) {
             return tl::unexpected(reading::fault("G012", name_, "the default scene holds no triangles, expected cards",
@@ -173,7 +173,7 @@ private:
         if (!positions) return positions.error();
         const auto uvs = gltf::elements(model_, primitive.attributes.at("TEXCOORD_0"), "TEXCOORD_0", name_);
         if (!uvs) return uvs.error();
-        const auto optional = [&](const char* semantic) -> Outcome<gltf::Elements> {
+        const auto optional = [&](const char* semantic) -> Result<gltf::Elements> {
             const auto found = primitive.attributes.find(semantic);
             if (found == primitive.attributes.end()) return gltf::Elements();
             return gltf::elements(model_, found->second, semantic, name_);
@@ -349,17 +349,17 @@ private:
 
 }  // namespace
 
-Outcome<Asset> reading::readGltf(Source& source, const std::string& name, Diagnostics& notes) {
+Result<Asset> reading::readGltf(Source& source, const std::string& name, Diagnostics& notes) {
     const auto bytes = source.all();
     if (bytes.empty() && source.size() > 0) return tl::unexpected(cannotRead(name));
-    const Outcome<tinygltf::Model> model = gltf::readDocument(bytes, name, source.folder());
+    const Result<tinygltf::Model> model = gltf::readDocument(bytes, name, source.folder());
     if (!model) return tl::unexpected(model.error());
     return CardReader(*model, name, notes).read();
 }
 
 namespace {
 
-Outcome<Mesh> meshOnly(reading::Source source, const std::string& name) {
+Result<Mesh> meshOnly(reading::Source source, const std::string& name) {
     Diagnostics notes;
     auto asset = reading::readGltf(source, name, notes);
     if (!asset) return tl::unexpected(std::move(asset.error()));
@@ -368,11 +368,11 @@ Outcome<Mesh> meshOnly(reading::Source source, const std::string& name) {
 
 }  // namespace
 
-Outcome<Mesh> parseGltf(std::span<const std::byte> bytes, const std::string& name) {
+Result<Mesh> parseGltf(std::span<const std::byte> bytes, const std::string& name) {
     return meshOnly(reading::Source(bytes), name);
 }
 
-Outcome<Mesh> loadGltf(const std::string& path) {
+Result<Mesh> loadGltf(const std::string& path) {
     return reading::Source::open(path).and_then(
         [&](reading::Source&& source) { return meshOnly(std::move(source), path); });
 }

@@ -113,7 +113,7 @@ std::uint32_t Elements::index(std::size_t i) const {
     }
 }
 
-Outcome<Elements> elements(const tinygltf::Model& model, int index, std::string_view semantic,
+Result<Elements> elements(const tinygltf::Model& model, int index, std::string_view semantic,
                            const std::string& name) {
     const std::string self = "accessor " + std::to_string(index) + " (" + std::string(semantic) + ") ";
     const char* const damaged = "the file is damaged: export it again";

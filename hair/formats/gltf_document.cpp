@@ -44,7 +44,7 @@ std::string samePath(const std::string& path, void*) {
 bool readWhole(std::vector<unsigned char>* out, std::string* error, const std::string& path, void* user) {
     auto& folder = *static_cast<Folder*>(user);
     if (!isInside(folder, path)) return false;
-    const Outcome<std::vector<std::byte>> bytes = readFile(path);
+    const Result<std::vector<std::byte>> bytes = readFile(path);
     if (!bytes) {
         if (error != nullptr) *error = bytes.error().text;
         if (folder.missing.empty()) folder.missing = path;
@@ -87,7 +87,7 @@ int depthOf(std::string_view json) {
     return deepest;
 }
 
-Outcome<std::string_view> jsonOfBinary(std::span<const std::byte> bytes, const std::string& name) {
+Result<std::string_view> jsonOfBinary(std::span<const std::byte> bytes, const std::string& name) {
     const std::string size = std::to_string(bytes.size());
     if (bytes.size() < 20) {
         return tl::unexpected(fault("G002", name, "the file has " + size + " bytes, expected at least 20 of a .glb",
@@ -128,7 +128,7 @@ Outcome<std::string_view> jsonOfBinary(std::span<const std::byte> bytes, const s
 }
 
 /// Extensions that change how positions or texture coordinates are stored; without them nothing can be read.
-Outcome<tinygltf::Model> checkExtensions(tinygltf::Model model, const std::string& name) {
+Result<tinygltf::Model> checkExtensions(tinygltf::Model model, const std::string& name) {
     for (const std::string& extension : model.extensionsRequired) {
         const bool harmless = extension.starts_with("KHR_materials_") || extension == "KHR_lights_punctual" ||
                               extension == "KHR_mesh_quantization" || extension == "KHR_xmp_json_ld";
@@ -141,13 +141,13 @@ Outcome<tinygltf::Model> checkExtensions(tinygltf::Model model, const std::strin
 
 }  // namespace
 
-Outcome<tinygltf::Model> readDocument(std::span<const std::byte> bytes, const std::string& name,
+Result<tinygltf::Model> readDocument(std::span<const std::byte> bytes, const std::string& name,
                                       const std::string& folder) {
     const bool binary = bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
     std::string_view json(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (bytes.empty()) return tl::unexpected(fault("G001", name, "there are no bytes", "name a .glb or .gltf file"));
     if (binary) {
-        const Outcome<std::string_view> chunk = jsonOfBinary(bytes, name);
+        const Result<std::string_view> chunk = jsonOfBinary(bytes, name);
         if (!chunk) return tl::unexpected(chunk.error());
         json = *chunk;
     } else {
@@ -201,7 +201,7 @@ Outcome<tinygltf::Model> readDocument(std::span<const std::byte> bytes, const st
     return checkExtensions(std::move(model), name);
 }
 
-Outcome<std::span<const std::byte>> viewBytes(const tinygltf::Model& model, int view, const std::string& name) {
+Result<std::span<const std::byte>> viewBytes(const tinygltf::Model& model, int view, const std::string& name) {
     const auto wrong = [&](const std::string& text) {
         return tl::unexpected(fault("G008", name, "buffer view " + std::to_string(view) + " " + text,
                                     "the file is damaged: export it again"));

@@ -18,11 +18,11 @@
 namespace pelage::hair::gltf {
 
 /// The document, images still encoded (Image::image holds the file's bytes of an image named by a URI).
-Outcome<tinygltf::Model> readDocument(std::span<const std::byte> bytes, const std::string& name,
+Result<tinygltf::Model> readDocument(std::span<const std::byte> bytes, const std::string& name,
                                       const std::string& folder);
 
 /// The bytes of a buffer view, checked against its buffer (G008).
-Outcome<std::span<const std::byte>> viewBytes(const tinygltf::Model& model, int view, const std::string& name);
+Result<std::span<const std::byte>> viewBytes(const tinygltf::Model& model, int view, const std::string& name);
 
 /// Elements of an accessor, checked against its view and buffer: reading element i < count is always safe.
 class Elements {
@@ -35,7 +35,7 @@ public:
     std::uint32_t index(std::size_t i) const;
 
 private:
-    friend Outcome<Elements> elements(const tinygltf::Model&, int, std::string_view, const std::string&);
+    friend Result<Elements> elements(const tinygltf::Model&, int, std::string_view, const std::string&);
     std::span<const std::byte> bytes_ = {};
     std::size_t count_ = 0, stride_ = 0;
     int components_ = 0, type_ = 0;
@@ -43,6 +43,6 @@ private:
 };
 
 /// Accessor `index`, which serves as `semantic` (POSITION, indices, ...): component type and width must suit it.
-Outcome<Elements> elements(const tinygltf::Model& model, int index, std::string_view semantic, const std::string& name);
+Result<Elements> elements(const tinygltf::Model& model, int index, std::string_view semantic, const std::string& name);
 
 }  // namespace pelage::hair::gltf

@@ -38,7 +38,7 @@ void layOut(Header& h) {
     h.end = at;
 }
 
-Outcome<Header> readHeader(Source& source, const std::string& name) {
+Result<Header> readHeader(Source& source, const std::string& name) {
     if (source.size() < kHeaderBytes) {
         return tl::unexpected(fault("H001", name,
                                     "the file has " + std::to_string(source.size()) +
@@ -84,7 +84,7 @@ Outcome<Header> readHeader(Source& source, const std::string& name) {
 
 /// Where each strand begins. The segments must use every point exactly once; anything else would shift all strands that
 /// follow.
-Outcome<std::vector<std::uint32_t>> readFirst(Source& source, const std::string& name, const Header& h) {
+Result<std::vector<std::uint32_t>> readFirst(Source& source, const std::string& name, const Header& h) {
     std::vector<std::uint16_t> segments(h.flags & Segments ? h.strands : 0);
     if (!source.read(h.segmentsAt, segments)) return tl::unexpected(reading::cannotRead(name));
     const std::uint32_t otherwise = std::min(h.defaultSegments, h.points);
@@ -110,8 +110,8 @@ void put(std::vector<std::byte>& out, std::size_t offset, const T& value) {
 
 }  // namespace
 
-Outcome<Asset> reading::readHair(Source& source, const std::string& name, Diagnostics& notes) {
-    const Outcome<Header> header = readHeader(source, name);
+Result<Asset> reading::readHair(Source& source, const std::string& name, Diagnostics& notes) {
+    const Result<Header> header = readHeader(source, name);
     if (!header) return tl::unexpected(header.error());
     auto first = readFirst(source, name, *header);
     if (!first) return tl::unexpected(first.error());
@@ -124,11 +124,11 @@ Outcome<Asset> reading::readHair(Source& source, const std::string& name, Diagno
     return cleaned(std::move(strands), 'H', notes);
 }
 
-Outcome<Strands> parseHair(std::span<const std::byte> bytes, const std::string& name) {
+Result<Strands> parseHair(std::span<const std::byte> bytes, const std::string& name) {
     return reading::strandsOnly(reading::readHair, reading::Source(bytes), name);
 }
 
-Outcome<Strands> loadHair(const std::string& path) {
+Result<Strands> loadHair(const std::string& path) {
     return reading::strandsOnly(reading::readHair, path);
 }
 

@@ -67,7 +67,7 @@ bool jpegTablesFit(std::span<const std::byte> bytes) {
 
 }  // namespace
 
-Outcome<Image8> decodeImage(std::span<const std::byte> bytes, const std::string& name, bool srgb) {
+Result<Image8> decodeImage(std::span<const std::byte> bytes, const std::string& name, bool srgb) {
     if (bytes.empty()) {
         return tl::unexpected(fault("I001", name, "the image has no bytes", "export the texture again"));
     }

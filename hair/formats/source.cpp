@@ -30,7 +30,7 @@ tl::unexpected<Diagnostic> emptyFile(const std::string& path) {
 
 }  // namespace
 
-Outcome<Source> Source::open(const std::string& path, std::uint64_t limit) {
+Result<Source> Source::open(const std::string& path, std::uint64_t limit) {
     std::error_code error;
     if (!std::filesystem::exists(path, error)) {
         return tl::unexpected(
@@ -95,7 +95,7 @@ std::span<const std::byte> Source::all() {
 
 }  // namespace reading
 
-Outcome<std::vector<std::byte>> readFile(const std::string& path, std::size_t limit) {
+Result<std::vector<std::byte>> readFile(const std::string& path, std::size_t limit) {
     auto source = reading::Source::open(path, limit);
     if (!source) return tl::unexpected(source.error());
     std::vector<std::byte> bytes(source->size());

@@ -19,7 +19,7 @@ public:
     /// The bytes must stay where they are while the source lives.
     explicit Source(std::span<const std::byte> bytes) : bytes_(bytes), size_(bytes.size()) {}
     /// F001 cannot open, F002 larger than `limit`, F003 empty. What has no size (a pipe) is read whole.
-    static Outcome<Source> open(const std::string& path, std::uint64_t limit = std::uint64_t{1} << 31);
+    static Result<Source> open(const std::string& path, std::uint64_t limit = std::uint64_t{1} << 31);
 
     std::uint64_t size() const { return size_; }
     /// Where the file lies, for files that it names; empty for memory, which must be complete in itself.

@@ -31,7 +31,7 @@ Diagnostic promisesMore(const std::string& name, const Header& h, std::uint64_t 
                  "the file is cut off or its header is damaged: copy or export it again");
 }
 
-Outcome<Header> readHeader(Source& source, const std::string& name) {
+Result<Header> readHeader(Source& source, const std::string& name) {
     if (source.size() < kHeaderBytes) {
         return tl::unexpected(fault("T001", name,
                                     "the file has " + std::to_string(source.size()) +
@@ -79,8 +79,8 @@ Outcome<Header> readHeader(Source& source, const std::string& name) {
 
 }  // namespace
 
-Outcome<Asset> reading::readTfx(Source& source, const std::string& name, Diagnostics& notes) {
-    const Outcome<Header> header = readHeader(source, name);
+Result<Asset> reading::readTfx(Source& source, const std::string& name, Diagnostics& notes) {
+    const Result<Header> header = readHeader(source, name);
     if (!header) return tl::unexpected(header.error());
     Strands strands = {.name = name};
     strands.points.resize(std::size_t{header->strands} * header->pointsPerStrand);
@@ -97,11 +97,11 @@ Outcome<Asset> reading::readTfx(Source& source, const std::string& name, Diagnos
     return cleaned(std::move(strands), 'T', notes);
 }
 
-Outcome<Strands> parseTfx(std::span<const std::byte> bytes, const std::string& name) {
+Result<Strands> parseTfx(std::span<const std::byte> bytes, const std::string& name) {
     return reading::strandsOnly(reading::readTfx, reading::Source(bytes), name);
 }
 
-Outcome<Strands> loadTfx(const std::string& path) {
+Result<Strands> loadTfx(const std::string& path) {
     return reading::strandsOnly(reading::readTfx, path);
 }
 

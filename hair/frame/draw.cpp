@@ -4,7 +4,7 @@
 
 namespace pelage::hair {
 
-rhi::Result<rhi::BindGroup> Renderer::State::groupFor(std::map<const void*, rhi::BindGroup>& cache,
+Result<rhi::BindGroup> Renderer::State::groupFor(std::map<const void*, rhi::BindGroup>& cache,
                                                       const rhi::BindGroupLayout& layout, const rhi::Buffer& buffer,
                                                       std::uint64_t size, const char* label) {
     rhi::BindGroup& group = cache[layout.get()];
@@ -16,7 +16,7 @@ rhi::Result<rhi::BindGroup> Renderer::State::groupFor(std::map<const void*, rhi:
     return group;
 }
 
-rhi::Result<rhi::BindGroup> Renderer::State::objectGroup(ObjectState& object, const rhi::BindGroupLayout& layout,
+Result<rhi::BindGroup> Renderer::State::objectGroup(ObjectState& object, const rhi::BindGroupLayout& layout,
                                                          const rhi::Buffer& pieces) {
     const bool strands = object.geometry->strands.has_value();
     const StrandBuffers& b = object.moving.buffers();
@@ -45,7 +45,7 @@ rhi::Result<rhi::BindGroup> Renderer::State::objectGroup(ObjectState& object, co
     return made;
 }
 
-Outcome<rhi::BindGroup> Renderer::State::materialGroup(std::size_t index, const Look& look, std::uint32_t shader,
+Result<rhi::BindGroup> Renderer::State::materialGroup(std::size_t index, const Look& look, std::uint32_t shader,
                                                        const rhi::BindGroupLayout& layout) {
     const ObjectState& object = objects[index];
     const materials::ShaderUse& use = look.shaders[shader].use;
@@ -58,7 +58,7 @@ Outcome<rhi::BindGroup> Renderer::State::materialGroup(std::size_t index, const 
                               });
 }
 
-rhi::Result<void> Renderer::State::draw(Scene& scene, passes::RasterContext& context) {
+Result<void> Renderer::State::draw(Scene& scene, passes::RasterContext& context) {
     const bool shadow = context.pass.view == "shadow";
     const std::size_t viewIndex = shadow ? 1 + context.viewIndex : 0;
     if (viewIndex >= views.size()) return {};
@@ -88,8 +88,8 @@ rhi::Result<void> Renderer::State::draw(Scene& scene, passes::RasterContext& con
             if (const auto layout = made.bindGroupLayout(2)) {
                 auto group = materialGroup(i, *object.shown, wanted.shader, layout);
                 if (!group) {
-                    return tl::unexpected(rhi::Error{
-                        rhi::ErrorKind::Validation, rhi::ErrorCode::BindingMismatch, toString(group.error()), {}});
+                    return tl::unexpected(Diagnostic{
+                        ErrorKind::Validation, rhi::ErrorCode::BindingMismatch, toString(group.error()), {}});
                 }
                 encoder.setBindGroup(2, *group);
             }

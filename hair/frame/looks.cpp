@@ -75,7 +75,7 @@ bool Look::isReady() const {
                        [](const Draw& draw) { return draw.pipeline->state() == Pipelines::Entry::State::Ready; });
 }
 
-const rhi::Error* Look::failure() const {
+const Diagnostic* Look::failure() const {
     for (const Draw& draw : draws) {
         if (draw.pipeline->state() == Pipelines::Entry::State::Failed) return &draw.pipeline->error();
     }
@@ -91,7 +91,7 @@ bool Renderer::State::looksLike(const Look& look, const ObjectState& object,
                       sameStates);
 }
 
-Outcome<void> Renderer::State::updateLook(ObjectState& object, const Object& from) {
+Result<void> Renderer::State::updateLook(ObjectState& object, const Object& from) {
     if (auto checked = checkType(from.material.sharedType()); !checked) return checked;
     const bool strands = object.geometry->strands.has_value();
     // What was drawn with another type or topology cannot be bound to this one's values.
@@ -111,10 +111,10 @@ Outcome<void> Renderer::State::updateLook(ObjectState& object, const Object& fro
     for (std::optional<Look>* look : {&object.shown, &object.next}) {
         if (!*look || (*look)->graph == graphBuilds) continue;
         if (auto asked = requestPipelines(**look, nameOf(object.geometry->source)); !asked)
-            return tl::unexpected(toDiagnostic(asked.error()));
+            return tl::unexpected(asked.error());
     }
     if (!object.next) return {};
-    if (const rhi::Error* failure = object.next->failure()) {
+    if (const Diagnostic* failure = object.next->failure()) {
         Diagnostic problem = toDiagnostic(*failure);
         if (mode == PipelineMode::Synchronous || !object.shown) {
             object.next.reset();
@@ -130,7 +130,7 @@ Outcome<void> Renderer::State::updateLook(ObjectState& object, const Object& fro
     return {};
 }
 
-Outcome<void> Renderer::State::checkType(const std::shared_ptr<const materials::MaterialType>& type) {
+Result<void> Renderer::State::checkType(const std::shared_ptr<const materials::MaterialType>& type) {
     if (std::find(checkedTypes.begin(), checkedTypes.end(), type) != checkedTypes.end()) return {};
     Diagnostics found = type->unknownDrawLists(tree->drawLists());
     found.append(checkShaders(*type, [&](const std::string& file) {
@@ -145,7 +145,7 @@ Outcome<void> Renderer::State::checkType(const std::shared_ptr<const materials::
     return {};
 }
 
-rhi::Result<void> Renderer::State::requestPipelines(Look& look, const std::string& label) {
+Result<void> Renderer::State::requestPipelines(Look& look, const std::string& label) {
     look.draws.clear();
     look.failureSaid = false;
     for (const passes::PlanPass& pass : graph.plan().passes) {
@@ -164,7 +164,7 @@ rhi::Result<void> Renderer::State::requestPipelines(Look& look, const std::strin
     return {};
 }
 
-rhi::Result<rhi::RenderPipelineDescriptor> Renderer::State::describePipeline(
+Result<rhi::RenderPipelineDescriptor> Renderer::State::describePipeline(
     const Look& look, const materials::CompiledMaterial::Shader& shader, const passes::Targets& targets) {
     std::vector<rhi::ConstantEntry> constants = shader.constants;
     materials::RenderState state = shader.state;

@@ -35,14 +35,14 @@ public:
         enum class State : std::uint8_t { Pending, Ready, Failed };
         State state() const { return state_.load(std::memory_order_acquire); }
         const rhi::RenderPipeline& pipeline() const { return pipeline_; }  // Ready
-        const rhi::Error& error() const { return error_; }                 // Failed
+        const Diagnostic& error() const { return error_; }                 // Failed
 
     private:
         friend class Pipelines;
         std::atomic<State> state_ = State::Pending;
         std::uint64_t key_ = 0;
         rhi::RenderPipeline pipeline_ = {};
-        rhi::Error error_ = {};
+        Diagnostic error_ = {};
     };
     using Handle = std::shared_ptr<const Entry>;
 

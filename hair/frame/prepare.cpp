@@ -8,7 +8,7 @@
 
 namespace pelage::hair {
 
-Outcome<void> Renderer::State::buildGraph(const Scene& scene, const FrameSettings& settings, std::uint32_t& shadowSize,
+Result<void> Renderer::State::buildGraph(const Scene& scene, const FrameSettings& settings, std::uint32_t& shadowSize,
                                           std::uint32_t& shadowLights) {
     passes::HostDescription wanted;
     wanted.extent = {settings.width, settings.height, 1};
@@ -56,7 +56,7 @@ Outcome<void> Renderer::State::buildGraph(const Scene& scene, const FrameSetting
     return {};
 }
 
-Outcome<void> Renderer::State::writeView(std::size_t index, const FrameBlock& block) {
+Result<void> Renderer::State::writeView(std::size_t index, const FrameBlock& block) {
     if (views.size() <= index) views.resize(index + 1);
     ViewState& view = views[index];
     if (!view.block) {
@@ -64,15 +64,15 @@ Outcome<void> Renderer::State::writeView(std::size_t index, const FrameBlock& bl
             device.createBuffer({.label = index == 0 ? "frame" : "frame of shadow " + std::to_string(index - 1),
                                  .size = sizeof(FrameBlock),
                                  .usage = rhi::BufferUsage::Uniform | rhi::BufferUsage::CopyDst});
-        if (!buffer) return tl::unexpected(toDiagnostic(buffer.error()));
+        if (!buffer) return tl::unexpected(buffer.error());
         view.block = *buffer;
     }
     auto written = device.queue().writeBuffer(view.block, 0, std::as_bytes(std::span(&block, 1)));
-    if (!written) return tl::unexpected(toDiagnostic(written.error()));
+    if (!written) return tl::unexpected(written.error());
     return {};
 }
 
-Outcome<void> Renderer::State::prepareObjects(Scene& scene, const FrameViews& frameViews,
+Result<void> Renderer::State::prepareObjects(Scene& scene, const FrameViews& frameViews,
                                               rhi::CommandEncoder& encoder) {
     objects.resize(scene.objects.size());
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
@@ -93,7 +93,7 @@ Outcome<void> Renderer::State::prepareObjects(Scene& scene, const FrameViews& fr
             auto buffer = device.createBuffer({.label = object.name + " object",
                                                .size = sizeof(ObjectBlock),
                                                .usage = rhi::BufferUsage::Uniform | rhi::BufferUsage::CopyDst});
-            if (!buffer) return tl::unexpected(toDiagnostic(buffer.error()));
+            if (!buffer) return tl::unexpected(buffer.error());
             state.block = *buffer;
         }
         ObjectBlock block;
@@ -105,7 +105,7 @@ Outcome<void> Renderer::State::prepareObjects(Scene& scene, const FrameViews& fr
             block.strides = {now.startStride, now.widthStride, now.colorStride, 0};
         }
         auto written = device.queue().writeBuffer(state.block, 0, std::as_bytes(std::span(&block, 1)));
-        if (!written) return tl::unexpected(toDiagnostic(written.error()));
+        if (!written) return tl::unexpected(written.error());
         auto sorted = sortObject(object, state, glm::vec3(frameViews.main.viewForward));
         if (!sorted) return sorted;
     }
@@ -114,7 +114,7 @@ Outcome<void> Renderer::State::prepareObjects(Scene& scene, const FrameViews& fr
 }
 
 // Alpha blending needs an order; nothing else does.
-Outcome<void> Renderer::State::sortObject(const Object& from, ObjectState& state, const glm::vec3& forward) {
+Result<void> Renderer::State::sortObject(const Object& from, ObjectState& state, const glm::vec3& forward) {
     const bool blends =
         state.shown && std::any_of(state.shown->shaders.begin(), state.shown->shaders.end(), [](const auto& s) {
             return s.enabled && s.state.blend == materials::Blend::Premultiplied;
@@ -138,7 +138,7 @@ Outcome<void> Renderer::State::sortObject(const Object& from, ObjectState& state
     usage = usage | rhi::BufferUsage::CopyDst;
     if (!state.sorted || state.sorted.size() != bytes.size() || state.sorted.usage() != usage) {
         auto buffer = device.createBuffer({.label = from.name + " sorted", .size = bytes.size(), .usage = usage});
-        if (!buffer) return tl::unexpected(toDiagnostic(buffer.error()));
+        if (!buffer) return tl::unexpected(buffer.error());
         state.sorted = *buffer;
     }
     return writeBuffer(device, state.sorted, bytes);

@@ -14,7 +14,7 @@ std::span<const std::uint32_t> embeddedShader(std::string_view name);
 std::span<const std::string_view> embeddedShaderNames();
 }  // namespace detail
 
-Diagnostic toDiagnostic(const rhi::Error& error) {
+Diagnostic toDiagnostic(const Diagnostic& error) {
     Diagnostic diagnostic;
     const std::string number = std::to_string(static_cast<unsigned>(error.code));
     diagnostic.code = "R" + std::string(number.size() < 3 ? 3 - number.size() : 0, '0') + number;
@@ -32,7 +32,7 @@ std::vector<std::string> Renderer::shaderNames() {
     return {names.begin(), names.end()};
 }
 
-rhi::Result<rhi::ShaderModule> Renderer::State::module(const std::string& file) {
+Result<rhi::ShaderModule> Renderer::State::module(const std::string& file) {
     if (const auto found = modules.find(file); found != modules.end()) return found->second;
     std::span<const std::uint32_t> code;
     if (hostShaders) code = hostShaders(file);
@@ -41,7 +41,7 @@ rhi::Result<rhi::ShaderModule> Renderer::State::module(const std::string& file) 
         std::string known;
         for (const std::string_view name : detail::embeddedShaderNames())
             known += (known.empty() ? "" : ", ") + std::string(name);
-        return tl::unexpected(rhi::Error{rhi::ErrorKind::Validation,
+        return tl::unexpected(Diagnostic{ErrorKind::Validation,
                                          rhi::ErrorCode::ShaderInvalid,
                                          "There is no shader \"" + file + "\"; this build has " + known + ".",
                                          {}});
@@ -51,9 +51,9 @@ rhi::Result<rhi::ShaderModule> Renderer::State::module(const std::string& file) 
     return made;
 }
 
-Outcome<Renderer> Renderer::create(Descriptor descriptor) {
+Result<Renderer> Renderer::create(Descriptor descriptor) {
     if (!descriptor.device || !descriptor.tree) {
-        return tl::unexpected(Diagnostic{.code = "H100",
+        return tl::unexpected(Diagnostic{.code = "N001",
                                          .text = "a renderer needs a device and a pass tree",
                                          .hint = "fill Renderer::Descriptor::device and ::tree"});
     }
@@ -63,7 +63,7 @@ Outcome<Renderer> Renderer::create(Descriptor descriptor) {
                                                     .magFilter = rhi::FilterMode::Linear,
                                                     .minFilter = rhi::FilterMode::Linear,
                                                     .mipmapFilter = rhi::FilterMode::Linear});
-    if (!sampler) return tl::unexpected(toDiagnostic(sampler.error()));
+    if (!sampler) return tl::unexpected(sampler.error());
     Renderer renderer;
     renderer.state_ = std::make_shared<State>(descriptor, *sampler);
     State& state = *renderer.state_;
@@ -75,12 +75,12 @@ Outcome<Renderer> Renderer::create(Descriptor descriptor) {
                                  .classes = std::move(descriptor.classes)});
     auto block = descriptor.device.createBuffer(
         {.label = "display constants", .size = 16, .usage = rhi::BufferUsage::Uniform | rhi::BufferUsage::CopyDst});
-    if (!block) return tl::unexpected(toDiagnostic(block.error()));
+    if (!block) return tl::unexpected(block.error());
     state.displayBlock = *block;
     return renderer;
 }
 
-Outcome<void> Renderer::setTree(std::shared_ptr<const passes::PassTree> tree) {
+Result<void> Renderer::setTree(std::shared_ptr<const passes::PassTree> tree) {
     State& state = *state_;
     if (state.built) {
         auto built = state.graph.build(*tree, state.host);
@@ -92,14 +92,14 @@ Outcome<void> Renderer::setTree(std::shared_ptr<const passes::PassTree> tree) {
     return {};
 }
 
-Outcome<void> Renderer::encode(Scene& scene, const FrameSettings& settings, rhi::CommandEncoder& encoder) {
+Result<void> Renderer::encode(Scene& scene, const FrameSettings& settings, rhi::CommandEncoder& encoder) {
     State& state = *state_;
     state.frame = {};
     if (scene.objects.empty()) {
-        return tl::unexpected(Diagnostic{.code = "H101", .text = "the scene has no objects", .hint = "add hair to it"});
+        return tl::unexpected(Diagnostic{.code = "N002", .text = "the scene has no objects", .hint = "add hair to it"});
     }
     if (scene.lights.size() > maxLights) {
-        return tl::unexpected(Diagnostic{.code = "H102",
+        return tl::unexpected(Diagnostic{.code = "N003",
                                          .text = "the scene has " + std::to_string(scene.lights.size()) +
                                                  " lights, the most is " + std::to_string(maxLights),
                                          .hint = "merge or delete lights"});
@@ -116,7 +116,7 @@ Outcome<void> Renderer::encode(Scene& scene, const FrameSettings& settings, rhi:
     }
     const glm::vec4 display(scene.background, scene.exposure);
     auto shown = state.device.queue().writeBuffer(state.displayBlock, 0, std::as_bytes(std::span(&display, 1)));
-    if (!shown) return tl::unexpected(toDiagnostic(shown.error()));
+    if (!shown) return tl::unexpected(shown.error());
     auto irradiance = state.uploads.irradiance(scene.environment);
     if (!irradiance) return tl::unexpected(irradiance.error());
 
@@ -127,7 +127,7 @@ Outcome<void> Renderer::encode(Scene& scene, const FrameSettings& settings, rhi:
     for (const auto& [name, texture] : settings.imports) imports.textures[name] = texture;
     auto recorded = state.graph.record(encoder, imports,
                                        [&](passes::RasterContext& context) { return state.draw(scene, context); });
-    if (!recorded) return tl::unexpected(toDiagnostic(recorded.error()));
+    if (!recorded) return tl::unexpected(recorded.error());
     return {};
 }
 
@@ -150,7 +150,7 @@ const StrandBuffers* Renderer::strandBuffers(std::size_t object) const {
 namespace {
 
 // A texture's first level and layer, as a tightly packed buffer to map.
-rhi::Result<rhi::Buffer> copyOut(const rhi::Device& device, rhi::CommandEncoder& encoder, const rhi::Texture& texture) {
+Result<rhi::Buffer> copyOut(const rhi::Device& device, rhi::CommandEncoder& encoder, const rhi::Texture& texture) {
     const rhi::Extent3D size = texture.size();
     const std::uint64_t bytes = std::uint64_t{size.width} * size.height * rhi::bytesPerTexel(texture.format());
     auto buffer = device.createBuffer({.label = texture.label() + " readback",
@@ -162,7 +162,7 @@ rhi::Result<rhi::Buffer> copyOut(const rhi::Device& device, rhi::CommandEncoder&
 
 }  // namespace
 
-Outcome<Picture> Renderer::render(Scene& scene, const FrameSettings& settings) {
+Result<Picture> Renderer::render(Scene& scene, const FrameSettings& settings) {
     State& state = *state_;
     rhi::CommandEncoder encoder = state.device.createCommandEncoder("frame");
     if (auto encoded = encode(scene, settings, encoder); !encoded) return tl::unexpected(encoded.error());
@@ -171,15 +171,15 @@ Outcome<Picture> Renderer::render(Scene& scene, const FrameSettings& settings) {
     for (auto [texture, buffer] : {std::pair{colorTexture(), &linear}, std::pair{displayTexture(), &display}}) {
         if (!texture) continue;
         auto made = copyOut(state.device, encoder, texture);
-        if (!made) return tl::unexpected(toDiagnostic(made.error()));
+        if (!made) return tl::unexpected(made.error());
         *buffer = *made;
     }
     auto commands = encoder.finish();
-    if (!commands) return tl::unexpected(toDiagnostic(commands.error()));
+    if (!commands) return tl::unexpected(commands.error());
     auto submission = state.device.queue().submit(*commands);
-    if (!submission) return tl::unexpected(toDiagnostic(submission.error()));
+    if (!submission) return tl::unexpected(submission.error());
     auto waited = state.device.queue().wait(*submission);
-    if (!waited) return tl::unexpected(toDiagnostic(waited.error()));
+    if (!waited) return tl::unexpected(waited.error());
     const std::size_t pixels = std::size_t{settings.width} * settings.height;
     if (linear) {
         picture.linear.resize(pixels * 4);

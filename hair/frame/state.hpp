@@ -50,7 +50,7 @@ struct Look {
     /// Material types name the vertex shader of meshes; strands have one of their own in its place.
     const std::string& vertexFile(const materials::ShaderUse& use) const;
     bool isReady() const;
-    const rhi::Error* failure() const;
+    const Diagnostic* failure() const;
 };
 
 // What an object keeps from frame to frame; found by its index in the scene.
@@ -107,29 +107,29 @@ struct Renderer::State {
           mode(descriptor.pipelines),
           pipelines(device, mode, descriptor.beforePipeline) {}
 
-    rhi::Result<rhi::ShaderModule> module(const std::string& file);
-    Outcome<void> buildGraph(const Scene& scene, const FrameSettings& settings, std::uint32_t& shadowSize,
+    Result<rhi::ShaderModule> module(const std::string& file);
+    Result<void> buildGraph(const Scene& scene, const FrameSettings& settings, std::uint32_t& shadowSize,
                              std::uint32_t& shadowLights);
-    Outcome<void> prepareObjects(Scene& scene, const FrameViews& frameViews, rhi::CommandEncoder& encoder);
-    Outcome<void> sortObject(const Object& from, ObjectState& state, const glm::vec3& forward);
-    Outcome<void> writeView(std::size_t index, const FrameBlock& block);
+    Result<void> prepareObjects(Scene& scene, const FrameViews& frameViews, rhi::CommandEncoder& encoder);
+    Result<void> sortObject(const Object& from, ObjectState& state, const glm::vec3& forward);
+    Result<void> writeView(std::size_t index, const FrameBlock& block);
     // renderer_looks.cpp
-    Outcome<void> updateLook(ObjectState& object, const Object& from);
-    Outcome<void> checkType(const std::shared_ptr<const materials::MaterialType>& type);
+    Result<void> updateLook(ObjectState& object, const Object& from);
+    Result<void> checkType(const std::shared_ptr<const materials::MaterialType>& type);
     bool looksLike(const Look& look, const ObjectState& object, const materials::CompiledMaterial& material) const;
-    rhi::Result<void> requestPipelines(Look& look, const std::string& label);
-    rhi::Result<rhi::RenderPipelineDescriptor> describePipeline(const Look& look,
+    Result<void> requestPipelines(Look& look, const std::string& label);
+    Result<rhi::RenderPipelineDescriptor> describePipeline(const Look& look,
                                                                 const materials::CompiledMaterial::Shader& shader,
                                                                 const passes::Targets& targets);
     // renderer_draw.cpp
-    Outcome<rhi::BindGroup> materialGroup(std::size_t index, const Look& look, std::uint32_t shader,
+    Result<rhi::BindGroup> materialGroup(std::size_t index, const Look& look, std::uint32_t shader,
                                           const rhi::BindGroupLayout& layout);
-    rhi::Result<rhi::BindGroup> groupFor(std::map<const void*, rhi::BindGroup>& cache,
+    Result<rhi::BindGroup> groupFor(std::map<const void*, rhi::BindGroup>& cache,
                                          const rhi::BindGroupLayout& layout, const rhi::Buffer& buffer,
                                          std::uint64_t size, const char* label);
-    rhi::Result<rhi::BindGroup> objectGroup(ObjectState& object, const rhi::BindGroupLayout& layout,
+    Result<rhi::BindGroup> objectGroup(ObjectState& object, const rhi::BindGroupLayout& layout,
                                             const rhi::Buffer& pieces);
-    rhi::Result<void> draw(Scene& scene, passes::RasterContext& context);
+    Result<void> draw(Scene& scene, passes::RasterContext& context);
 };
 
 }  // namespace pelage::hair

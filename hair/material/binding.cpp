@@ -49,7 +49,7 @@ std::vector<rhi::ConstantEntry> declaredConstants(const rhi::ShaderModule& modul
     return result;
 }
 
-Outcome<MaterialBindings::Entry> MaterialBindings::resolve(const rhi::BindGroupLayout& layout,
+Result<MaterialBindings::Entry> MaterialBindings::resolve(const rhi::BindGroupLayout& layout,
                                                            const std::shared_ptr<const materials::MaterialType>& type,
                                                            const materials::CompiledMaterial& material,
                                                            const Modules& modules) const {
@@ -75,7 +75,7 @@ Outcome<MaterialBindings::Entry> MaterialBindings::resolve(const rhi::BindGroupL
             }
             auto buffer = device_.createBuffer(
                 {.label = entry.label, .size = size, .usage = rhi::BufferUsage::Uniform | rhi::BufferUsage::CopyDst});
-            if (!buffer) return tl::unexpected(toDiagnostic(buffer.error()));
+            if (!buffer) return tl::unexpected(buffer.error());
             entry.block = *buffer;
         } else {
             // Not by the layout's name: layouts are shared, and the names in one may be those of another shader.
@@ -103,7 +103,7 @@ void MaterialBindings::fillBlock(const Entry& entry, const materials::CompiledMa
     }
 }
 
-Outcome<void> MaterialBindings::findViews(const Entry& entry, const materials::CompiledMaterial& material,
+Result<void> MaterialBindings::findViews(const Entry& entry, const materials::CompiledMaterial& material,
                                           const GpuGeometry& geometry, Uploads& uploads) {
     views_.clear();
     for (const TextureSlot& slot : entry.textures) {
@@ -124,7 +124,7 @@ Outcome<void> MaterialBindings::findViews(const Entry& entry, const materials::C
     return {};
 }
 
-Outcome<rhi::BindGroup> MaterialBindings::bindGroup(const Key& key, const rhi::BindGroupLayout& layout,
+Result<rhi::BindGroup> MaterialBindings::bindGroup(const Key& key, const rhi::BindGroupLayout& layout,
                                                     const std::shared_ptr<const materials::MaterialType>& type,
                                                     const materials::CompiledMaterial& material,
                                                     const GpuGeometry& geometry, Uploads& uploads,
@@ -138,7 +138,7 @@ Outcome<rhi::BindGroup> MaterialBindings::bindGroup(const Key& key, const rhi::B
     fillBlock(entry, material);
     if (entry.block && bytes_ != entry.bytes) {
         auto written = device_.queue().writeBuffer(entry.block, 0, bytes_);
-        if (!written) return tl::unexpected(toDiagnostic(written.error()));
+        if (!written) return tl::unexpected(written.error());
         entry.bytes = bytes_;
     }
     if (auto found = findViews(entry, material, geometry, uploads); !found) return tl::unexpected(found.error());
@@ -148,7 +148,7 @@ Outcome<rhi::BindGroup> MaterialBindings::bindGroup(const Key& key, const rhi::B
     for (const std::uint32_t binding : entry.samplers) bound.push_back({binding, sampler_});
     for (std::size_t i = 0; i < views_.size(); ++i) bound.push_back({entry.textures[i].binding, views_[i]});
     auto group = device_.createBindGroup({.label = entry.label, .layout = layout, .entries = bound});
-    if (!group) return tl::unexpected(toDiagnostic(group.error()));
+    if (!group) return tl::unexpected(group.error());
     entry.group = *group;
     entry.views = views_;
     return entry.group;

@@ -31,7 +31,7 @@ public:
         rhi::ShaderModule vertex = {}, fragment = {};
     };
     /// `modules` is asked only when the key is new or has another material type than before.
-    Outcome<rhi::BindGroup> bindGroup(const Key& key, const rhi::BindGroupLayout& layout,
+    Result<rhi::BindGroup> bindGroup(const Key& key, const rhi::BindGroupLayout& layout,
                                       const std::shared_ptr<const materials::MaterialType>& type,
                                       const materials::CompiledMaterial& material, const GpuGeometry& geometry,
                                       Uploads& uploads, const std::function<Modules()>& modules);
@@ -57,11 +57,11 @@ private:
         std::vector<std::byte> bytes = {};
         std::vector<rhi::TextureView> views = {};
     };
-    Outcome<Entry> resolve(const rhi::BindGroupLayout& layout,
+    Result<Entry> resolve(const rhi::BindGroupLayout& layout,
                            const std::shared_ptr<const materials::MaterialType>& type,
                            const materials::CompiledMaterial& material, const Modules& modules) const;
     void fillBlock(const Entry& entry, const materials::CompiledMaterial& material);
-    Outcome<void> findViews(const Entry& entry, const materials::CompiledMaterial& material,
+    Result<void> findViews(const Entry& entry, const materials::CompiledMaterial& material,
                             const GpuGeometry& geometry, Uploads& uploads);
 
     rhi::Device device_;

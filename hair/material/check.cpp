@@ -107,13 +107,13 @@ public:
     void reportUnread() {
         for (const Input& input : type_.inputs()) {
             if (!read_.count(input.name))
-                warn("S031", "input '" + input.name + "' is read by no shader of the material type",
+                warn("M052", "input '" + input.name + "' is read by no shader of the material type",
                      "declare it in the uniform block of set 2, or delete the input");
         }
         for (const materials::Option& option : type_.options()) {
             if (constants_.count(option.name)) continue;
             const std::string_view near = nearestName(option.name, {constants_.begin(), constants_.end()});
-            warn("S020", "option '" + option.name + "' is a specialization constant of no shader of the material type",
+            warn("M050", "option '" + option.name + "' is a specialization constant of no shader of the material type",
                  near.empty() ? "declare it with layout(constant_id = ...)"
                               : "the shaders have '" + std::string(near) + "'");
         }
@@ -167,7 +167,7 @@ private:
     }
 
     void fail(const rhi::ShaderModule& module, std::string text, std::string hint) {
-        found.add({Severity::Error, "S030", module.label(), 0, 0, std::move(text) + " (type '" + type_.name() + "')",
+        found.add({Severity::Error, "M051", module.label(), 0, 0, std::move(text) + " (type '" + type_.name() + "')",
                    std::move(hint)});
     }
     void warn(std::string code, std::string text, std::string hint) {

@@ -12,8 +12,8 @@ namespace {
 using rhi::BufferUsage;
 
 template <class T>
-tl::unexpected<Diagnostic> failed(const rhi::Result<T>& result) {
-    return tl::unexpected(toDiagnostic(result.error()));
+tl::unexpected<Diagnostic> failed(const Result<T>& result) {
+    return tl::unexpected(result.error());
 }
 
 // Passes of a host's own may read what the vertex shader reads, and copies are how tests look at it.
@@ -23,7 +23,7 @@ tl::unexpected<Diagnostic> misfit(const char* code, const std::string& text, con
     return tl::unexpected(Diagnostic{.code = code, .text = text, .hint = hint});
 }
 
-Outcome<void> check(const Strands& strands) {
+Result<void> check(const Strands& strands) {
     const std::size_t points = strands.points.size();
     const auto wrong = [&](const std::string& what, std::size_t found, std::size_t expected) {
         return misfit("H103",
@@ -56,7 +56,7 @@ std::vector<float> idsOf(const Strands& strands) {
 
 }  // namespace
 
-Outcome<void> writeBuffer(const rhi::Device& device, const rhi::Buffer& buffer, std::span<const std::byte> bytes) {
+Result<void> writeBuffer(const rhi::Device& device, const rhi::Buffer& buffer, std::span<const std::byte> bytes) {
     constexpr std::size_t slice = std::size_t{1} << 20;
     for (std::size_t at = 0; at < bytes.size(); at += slice) {
         const auto part = bytes.subspan(at, std::min(slice, bytes.size() - at));
@@ -65,7 +65,7 @@ Outcome<void> writeBuffer(const rhi::Device& device, const rhi::Buffer& buffer, 
     return {};
 }
 
-Outcome<rhi::Buffer> uploadBuffer(const rhi::Device& device, const std::string& label, BufferUsage usage,
+Result<rhi::Buffer> uploadBuffer(const rhi::Device& device, const std::string& label, BufferUsage usage,
                                   std::span<const std::byte> bytes) {
     const rhi::AdapterType type = device.info().type;
     const bool direct = type == rhi::AdapterType::CPU || type == rhi::AdapterType::IntegratedGPU;
@@ -109,11 +109,11 @@ Pieces piecesOf(const Strands& strands) {
     return pieces;
 }
 
-Outcome<GpuStrands> uploadStrands(const rhi::Device& device, const Strands& strands) {
+Result<GpuStrands> uploadStrands(const rhi::Device& device, const Strands& strands) {
     if (auto checked = check(strands); !checked) return tl::unexpected(checked.error());
     GpuStrands result;
     StrandBuffers& b = result.buffers;
-    Outcome<void> fault = {};
+    Result<void> fault = {};
     const auto put = [&](rhi::Buffer& to, const char* what, auto values) {
         if (!fault) return;
         auto made = uploadBuffer(device, strands.name + " " + what, kUsage, std::as_bytes(std::span(values)));
@@ -151,7 +151,7 @@ Outcome<GpuStrands> uploadStrands(const rhi::Device& device, const Strands& stra
     return result;
 }
 
-Outcome<rhi::Buffer> MovingPoints::next(const rhi::Device& device, const std::string& name, std::uint64_t bytes) {
+Result<rhi::Buffer> MovingPoints::next(const rhi::Device& device, const std::string& name, std::uint64_t bytes) {
     turn_ = 1 - turn_;
     rhi::Buffer& buffer = turns_[turn_];
     if (buffer && buffer.size() == bytes) return buffer;
@@ -161,7 +161,7 @@ Outcome<rhi::Buffer> MovingPoints::next(const rhi::Device& device, const std::st
     return buffer;
 }
 
-Outcome<void> MovingPoints::updateStarts(const rhi::Device& device, const std::string& name,
+Result<void> MovingPoints::updateStarts(const rhi::Device& device, const std::string& name,
                                          std::span<const glm::uvec2> ranges, const Strands& strands) {
     if (starts_ && std::equal(ranges.begin(), ranges.end(), ranges_.begin(), ranges_.end())) return {};
     if (ranges.size() != strands.strandCount()) {
@@ -191,7 +191,7 @@ Outcome<void> MovingPoints::updateStarts(const rhi::Device& device, const std::s
     return {};
 }
 
-Outcome<void> MovingPoints::update(const rhi::Device& device, rhi::CommandEncoder& encoder, const std::string& name,
+Result<void> MovingPoints::update(const rhi::Device& device, rhi::CommandEncoder& encoder, const std::string& name,
                                    const MovedPoints& moved, const Strands& strands, const StrandBuffers& rest) {
     const StrandBuffers last = std::move(now_);
     now_ = rest;

@@ -13,10 +13,10 @@ namespace pelage::hair {
 
 /// A buffer with these bytes. Where device memory is the host's own they are written straight into it; elsewhere in
 /// slices that fit the queue's staging memory.
-Outcome<rhi::Buffer> uploadBuffer(const rhi::Device& device, const std::string& label, rhi::BufferUsage usage,
+Result<rhi::Buffer> uploadBuffer(const rhi::Device& device, const std::string& label, rhi::BufferUsage usage,
                                   std::span<const std::byte> bytes);
 /// Writes a buffer in slices that fit the queue's staging memory, which so is reused from frame to frame.
-Outcome<void> writeBuffer(const rhi::Device& device, const rhi::Buffer& buffer, std::span<const std::byte> bytes);
+Result<void> writeBuffer(const rhi::Device& device, const rhi::Buffer& buffer, std::span<const std::byte> bytes);
 
 /// A run of segments that one instance draws: `segments` of them from point `begin` of the strand, or what is left of
 /// it.
@@ -35,21 +35,21 @@ struct GpuStrands {
     std::uint64_t segments = 0;                       // as drawn, subdivisions included
 };
 /// H103 when offsets or the arrays beside the points do not fit.
-Outcome<GpuStrands> uploadStrands(const rhi::Device& device, const Strands& strands);
+Result<GpuStrands> uploadStrands(const rhi::Device& device, const Strands& strands);
 
 /// The points of one object from frame to frame: two buffers that take turns while it moves.
 class MovingPoints {
 public:
     /// Takes this frame's points into `buffers`, and makes those of the last frame the previous ones. H104 when they do
     /// not fit the strands.
-    Outcome<void> update(const rhi::Device& device, rhi::CommandEncoder& encoder, const std::string& name,
+    Result<void> update(const rhi::Device& device, rhi::CommandEncoder& encoder, const std::string& name,
                          const MovedPoints& moved, const Strands& strands, const StrandBuffers& rest);
     const StrandBuffers& buffers() const { return now_; }
 
 private:
-    Outcome<void> updateStarts(const rhi::Device& device, const std::string& name, std::span<const glm::uvec2> ranges,
+    Result<void> updateStarts(const rhi::Device& device, const std::string& name, std::span<const glm::uvec2> ranges,
                                const Strands& strands);
-    Outcome<rhi::Buffer> next(const rhi::Device& device, const std::string& name, std::uint64_t bytes);
+    Result<rhi::Buffer> next(const rhi::Device& device, const std::string& name, std::uint64_t bytes);
 
     StrandBuffers now_ = {};
     std::array<rhi::Buffer, 2> turns_ = {};

@@ -16,8 +16,8 @@ namespace pelage::hair {
 namespace {
 
 template <class T>
-tl::unexpected<Diagnostic> failed(const rhi::Result<T>& result) {
-    return tl::unexpected(toDiagnostic(result.error()));
+tl::unexpected<Diagnostic> failed(const Result<T>& result) {
+    return tl::unexpected(result.error());
 }
 
 const void* keyOf(const Geometry& geometry) {
@@ -26,7 +26,7 @@ const void* keyOf(const Geometry& geometry) {
 
 }  // namespace
 
-Outcome<const GpuGeometry*> Uploads::geometry(const Geometry& source) {
+Result<const GpuGeometry*> Uploads::geometry(const Geometry& source) {
     if (const auto found = geometry_.find(keyOf(source)); found != geometry_.end()) return &found->second;
     GpuGeometry result = {.source = source};
     const Strands* strands = strandsOf(source);
@@ -42,7 +42,7 @@ Outcome<const GpuGeometry*> Uploads::geometry(const Geometry& source) {
     return &geometry_.emplace(keyOf(source), std::move(result)).first->second;
 }
 
-Outcome<void> Uploads::uploadMesh(const Mesh& mesh, GpuGeometry& to) {
+Result<void> Uploads::uploadMesh(const Mesh& mesh, GpuGeometry& to) {
     auto vertices = uploadBuffer(device_, mesh.name + " vertices", rhi::BufferUsage::Vertex,
                                  std::as_bytes(std::span(mesh.vertices)));
     if (!vertices) return tl::unexpected(vertices.error());
@@ -65,7 +65,7 @@ Outcome<void> Uploads::uploadMesh(const Mesh& mesh, GpuGeometry& to) {
     return {};
 }
 
-Outcome<rhi::TextureView> Uploads::texture(const std::string& reference, bool srgb) {
+Result<rhi::TextureView> Uploads::texture(const std::string& reference, bool srgb) {
     const std::string key = reference + (srgb ? "|srgb" : "|linear");
     if (const auto found = textures_.find(key); found != textures_.end()) return found->second;
     if (reference.starts_with("moments:")) {
@@ -97,7 +97,7 @@ Outcome<rhi::TextureView> Uploads::texture(const std::string& reference, bool sr
     return view;
 }
 
-Outcome<rhi::TextureView> Uploads::uploadMoments(const std::string& name) {
+Result<rhi::TextureView> Uploads::uploadMoments(const std::string& name) {
     // A model without tables binds one black texel.
     std::optional<MomentTable> table = momentTableOf(name);
     const std::uint32_t width = table ? table->width() : 1, height = table ? table->height() : 1;
@@ -117,7 +117,7 @@ Outcome<rhi::TextureView> Uploads::uploadMoments(const std::string& name) {
     return *view;
 }
 
-Outcome<rhi::TextureView> Uploads::upload(const Image8& image, const std::string& label) {
+Result<rhi::TextureView> Uploads::upload(const Image8& image, const std::string& label) {
     const std::vector<Image8> levels = mipChain(image);
     const bool one = levels.front().channels == 1;
     auto texture = device_.createTexture({.label = label,
@@ -140,7 +140,7 @@ Outcome<rhi::TextureView> Uploads::upload(const Image8& image, const std::string
     return *view;
 }
 
-Outcome<rhi::Texture> Uploads::irradiance(const Environment& environment) {
+Result<rhi::Texture> Uploads::irradiance(const Environment& environment) {
     if (irradiance_ && environment.radiance == irradianceOf_.radiance &&
         environment.intensity == irradianceOf_.intensity) {
         return irradiance_;

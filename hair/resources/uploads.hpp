@@ -30,20 +30,20 @@ class Uploads {
 public:
     explicit Uploads(rhi::Device device) : device_(std::move(device)) {}
 
-    Outcome<const GpuGeometry*> geometry(const Geometry& source);
+    Result<const GpuGeometry*> geometry(const Geometry& source);
     /// "builtin.white", "builtin.grey", "builtin.black", a moment table by name, or the path of an image.
-    Outcome<rhi::TextureView> texture(const std::string& reference, bool srgb);
+    Result<rhi::TextureView> texture(const std::string& reference, bool srgb);
     /// A 16 x 16 cube of irradiance, RGBA16Float; rewritten only when the environment changed.
-    Outcome<rhi::Texture> irradiance(const Environment& environment);
+    Result<rhi::Texture> irradiance(const Environment& environment);
     /// Forgets geometry that nobody else holds.
     void collect();
 
 private:
-    Outcome<rhi::TextureView> uploadMoments(const std::string& name);
-    Outcome<rhi::TextureView> upload(const Image8& image, const std::string& label);
+    Result<rhi::TextureView> uploadMoments(const std::string& name);
+    Result<rhi::TextureView> upload(const Image8& image, const std::string& label);
 
     rhi::Device device_;
-    Outcome<void> uploadMesh(const Mesh& mesh, GpuGeometry& to);
+    Result<void> uploadMesh(const Mesh& mesh, GpuGeometry& to);
 
     std::map<const void*, GpuGeometry> geometry_;  // by the mesh or the strands
     std::map<std::string, rhi::TextureView> textures_;

@@ -42,7 +42,7 @@ GpuRow pack(const ScatterRow& row, MomentTable* table) {
     return r;
 }
 
-tl::unexpected<Diagnostic> failed(const rhi::Error& error) {
+tl::unexpected<Diagnostic> failed(const Diagnostic& error) {
     return tl::unexpected(toDiagnostic(error));
 }
 
@@ -51,7 +51,7 @@ constexpr std::size_t chunk = 16384;
 
 }  // namespace
 
-Outcome<std::vector<ScatteredLobes>> ScatterCompute::evaluate(ScatteringModel model, bool published,
+Result<std::vector<ScatteredLobes>> ScatterCompute::evaluate(ScatteringModel model, bool published,
                                                               std::span<const ScatterRow> rows) {
     const auto code = detail::embeddedShader("scatter_rows.comp");
     auto module = device_.createShaderModule({.label = "scatter_rows", .code = {code.begin(), code.end()}});

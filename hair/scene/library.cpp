@@ -67,7 +67,7 @@ Library::Library(std::string dataDirectory) : Library(std::move(dataDirectory), 
 Library::Library(std::string dataDirectory, materials::FunctorRegistry functors)
     : directory_(std::move(dataDirectory)), functors_(std::move(functors)) {}
 
-Checked<std::shared_ptr<const materials::MaterialType>> Library::materialType(const std::string& name) {
+Result<std::shared_ptr<const materials::MaterialType>> Library::materialType(const std::string& name) {
     const fs::path directory = fs::path(directory_) / "types";
     fs::path path = name;
     if (!isFile(path)) {
@@ -84,7 +84,7 @@ Checked<std::shared_ptr<const materials::MaterialType>> Library::materialType(co
     return type;
 }
 
-Checked<materials::Material::Parsed> Library::material(const std::string& nameOrPath) {
+Result<materials::Material::Parsed> Library::material(const std::string& nameOrPath) {
     fs::path path = nameOrPath;
     if (!looksLikePath(nameOrPath)) {
         const fs::path presets = fs::path(directory_) / "presets";
@@ -121,7 +121,7 @@ materials::Material::ParentSource Library::parentSource() const {
         };
 }
 
-Checked<std::shared_ptr<const passes::PassTree>> Library::passTree(const std::string& nameOrPath) {
+Result<std::shared_ptr<const passes::PassTree>> Library::passTree(const std::string& nameOrPath) {
     const fs::path templates = fs::path(directory_) / "frames";
     // What a tree includes and does not have beside it is one of the shipped frames.
     const auto shipped = [&](const std::string& name) { return (templates / name).string(); };

@@ -93,7 +93,7 @@ public:
         directory_ = fs::path(document.file).parent_path();
     }
 
-    Checked<SceneFile> read() {
+    Result<SceneFile> read() {
         const json::Value& root = document_.root;
         result_.passTree = pathOrName(wordOr(root, "passTree", result_.passTree));
         for (const json::Value& object : root.find("objects")->elements) readObject(object);
@@ -332,7 +332,7 @@ private:
     Diagnostics faults_;
 };
 
-Checked<json::Schema> readSchema(const Library& library) {
+Result<json::Schema> readSchema(const Library& library) {
     const std::string path = (fs::path(library.dataDirectory()) / "schemas" / "scene.schema.json").string();
     const auto bytes = readFile(path);
     if (!bytes) {
@@ -345,7 +345,7 @@ Checked<json::Schema> readSchema(const Library& library) {
 
 }  // namespace
 
-Checked<SceneFile> loadScene(const std::string& path, Library& library) {
+Result<SceneFile> loadScene(const std::string& path, Library& library) {
     auto document = json::parseFile(path);
     if (!document) return tl::unexpected(document.error());
     const auto schema = readSchema(library);
@@ -357,7 +357,7 @@ Checked<SceneFile> loadScene(const std::string& path, Library& library) {
     return scene;
 }
 
-Checked<SceneFile> sceneFromAsset(const std::string& path, const std::string& material, float aspect,
+Result<SceneFile> sceneFromAsset(const std::string& path, const std::string& material, float aspect,
                                   Library& library) {
     SceneFile file;
     auto geometry = parts::loadGeometry(path, 1, file.notes);

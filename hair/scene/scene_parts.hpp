@@ -55,7 +55,7 @@ inline Strands withDefaultPolicies(Strands strands, const std::string& path, Dia
 }
 
 /// Reads an asset and makes it drawable; what the reader noted is added to `notes`.
-inline Outcome<Geometry> loadGeometry(const std::string& path, std::uint32_t subdivisions, Diagnostics& notes) {
+inline Result<Geometry> loadGeometry(const std::string& path, std::uint32_t subdivisions, Diagnostics& notes) {
     auto loaded = loadAsset(path);
     if (!loaded) return tl::unexpected(loaded.error());
     notes.append(loaded->notes);

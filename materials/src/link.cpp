@@ -140,7 +140,7 @@ void Linker::linkDefaults() {
 void Linker::condition(const std::optional<Word>& expression, std::string_view key, std::size_t property,
                        std::vector<json::Condition>& out) {
     if (!expression) return;
-    Outcome<json::Condition> parsed = json::Condition::parse(expression->text, names_);
+    Result<json::Condition> parsed = json::Condition::parse(expression->text, names_);
     if (parsed) {
         for (const std::size_t read : parsed->reads()) propertyUsed_[read] = true;
         out.push_back(std::move(*parsed));

@@ -29,7 +29,7 @@ void MaterialReader::report(Severity severity, std::string code, const json::Doc
         {severity, std::move(code), document.file, place.line, place.column, std::move(text), std::move(hint)});
 }
 
-Checked<Material::Parsed> MaterialReader::run(Checked<json::Document> document) {
+Result<Material::Parsed> MaterialReader::run(Result<json::Document> document) {
     if (!document) return tl::unexpected<Diagnostics>(std::move(document.error()));
     if (!add(std::move(*document)) || !findType() || !addParents())
         return tl::unexpected<Diagnostics>(std::move(diagnostics));
@@ -43,7 +43,7 @@ Checked<Material::Parsed> MaterialReader::run(Checked<json::Document> document) 
 }
 
 bool MaterialReader::add(json::Document document) {
-    const Checked<json::Schema> schema = json::Schema::parse(materialSchema(), "material.schema.json");
+    const Result<json::Schema> schema = json::Schema::parse(materialSchema(), "material.schema.json");
     Diagnostics found = schema ? schema->validate(document) : schema.error();
     diagnostics.append(found);
     chain.push_back(std::move(document));
@@ -52,7 +52,7 @@ bool MaterialReader::add(json::Document document) {
 
 bool MaterialReader::findType() {
     const json::Value& name = *chain.front().root.find("type");
-    auto found = types ? types(name.string) : Checked<std::shared_ptr<const MaterialType>>(nullptr);
+    auto found = types ? types(name.string) : Result<std::shared_ptr<const MaterialType>>(nullptr);
     if (found && *found) {
         type = std::move(*found);
         return true;
@@ -75,7 +75,7 @@ bool MaterialReader::addParents() {
         }
         const json::Place place = parent->place;
         const std::string name = parent->string;
-        Checked<json::Document> document = json::parseFile(path);
+        Result<json::Document> document = json::parseFile(path);
         const bool usable = document.has_value() && add(std::move(*document));
         if (!usable) {
             const json::Document& child = document ? chain[chain.size() - 2] : chain.back();
@@ -171,12 +171,12 @@ void MaterialReader::readValue(Material& material, const json::Document& documen
     diagnostics.add(std::move(*converted.problem));
 }
 
-Checked<Material::Parsed> Material::parse(std::string_view text, const std::string& file, const TypeSource& types,
+Result<Material::Parsed> Material::parse(std::string_view text, const std::string& file, const TypeSource& types,
                                           const ParentSource& parents) {
     return MaterialReader{types, parents}.run(json::parse(text, file));
 }
 
-Checked<Material::Parsed> Material::load(const std::string& path, const TypeSource& types,
+Result<Material::Parsed> Material::load(const std::string& path, const TypeSource& types,
                                          const ParentSource& parents) {
     return MaterialReader{types, parents}.run(json::parseFile(path));
 }

@@ -15,7 +15,7 @@ struct MaterialReader {
     std::shared_ptr<const MaterialType> type = {};
 
     /// Reads everything; `chain` and `type` are kept for whoever wants more than the material.
-    Checked<Material::Parsed> run(Checked<json::Document> document);
+    Result<Material::Parsed> run(Result<json::Document> document);
 
 private:
     bool add(json::Document document);

@@ -7,11 +7,11 @@
 namespace pelage::materials {
 namespace {
 
-using Parsed = Checked<std::shared_ptr<const MaterialType>>;
+using Parsed = Result<std::shared_ptr<const MaterialType>>;
 
 // Phase A; errors end it, so that one mistake is not reported as ten.
-Checked<TypeDescription> readDescription(const json::Document& document) {
-    const Checked<json::Schema> schema = json::Schema::parse(materialTypeSchema(), "materialtype.schema.json");
+Result<TypeDescription> readDescription(const json::Document& document) {
+    const Result<json::Schema> schema = json::Schema::parse(materialTypeSchema(), "materialtype.schema.json");
     if (!schema) return tl::unexpected<Diagnostics>(schema.error());
     Diagnostics faults = schema->validate(document);
     if (faults.hasErrors()) return tl::unexpected<Diagnostics>(std::move(faults));
@@ -22,9 +22,9 @@ Checked<TypeDescription> readDescription(const json::Document& document) {
 
 // `make` keeps MaterialType's only constructor private to this file.
 struct MaterialTypeReader {
-    static Parsed make(const Checked<json::Document>& document, const FunctorRegistry& registry) {
+    static Parsed make(const Result<json::Document>& document, const FunctorRegistry& registry) {
         if (!document) return tl::unexpected<Diagnostics>(document.error());
-        const Checked<TypeDescription> description = readDescription(*document);
+        const Result<TypeDescription> description = readDescription(*document);
         if (!description) return tl::unexpected<Diagnostics>(description.error());
         Linker linker(*description, registry);
         MaterialType::Linked linked = linker.run();

@@ -77,10 +77,10 @@ std::string valuesText(const json::Document& document, const MaterialType::Linke
 
 }  // namespace
 
-Checked<Migration> migrate(std::string_view text, const std::string& file, const Material::TypeSource& types,
+Result<Migration> migrate(std::string_view text, const std::string& file, const Material::TypeSource& types,
                            const Material::ParentSource& parents) {
     MaterialReader reader{types, parents};
-    Checked<Material::Parsed> parsed = reader.run(json::parse(text, file));
+    Result<Material::Parsed> parsed = reader.run(json::parse(text, file));
     if (!parsed) return tl::unexpected<Diagnostics>(std::move(parsed.error()));
     const json::Document& document = reader.chain.front();
     const MaterialType::Linked& linked = reader.type->linked();

@@ -18,7 +18,7 @@ std::optional<Expression> Expression::parse(const std::string& text, json::Place
                                                         : Type::Word;
         names.names.push_back({setting->name, type, setting->words});
     }
-    Outcome<json::Condition> parsed = json::Condition::parse(text, names);
+    Result<json::Condition> parsed = json::Condition::parse(text, names);
     if (!parsed) {
         const Diagnostic& fault = parsed.error();
         // The quote that opens the string stands before the first byte of the text.

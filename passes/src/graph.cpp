@@ -4,7 +4,7 @@
 namespace pelage::passes {
 namespace {
 
-Checked<void> failure(const PassTree& tree, const rhi::Error& error, const std::string& what) {
+Result<void> failure(const PassTree& tree, const Diagnostic& error, const std::string& what) {
     Diagnostics out;
     Reporter(tree.file(), out).error({}, "D003", what + " of '" + tree.name() + "': " + rhi::toString(error));
     return tl::unexpected(std::move(out));
@@ -19,7 +19,7 @@ rhi::TextureDescriptor descriptorOf(const PlanResource& image) {
 }
 
 // A device may keep some format out of the heap's kind of memory; such an image has its own.
-rhi::Result<rhi::Texture> makeTexture(const rhi::Device& device, const PlanResource& image,
+Result<rhi::Texture> makeTexture(const rhi::Device& device, const PlanResource& image,
                                       const rhi::TransientHeap& heap) {
     rhi::TextureDescriptor descriptor = descriptorOf(image);
     if (heap) {
@@ -36,7 +36,7 @@ rhi::Result<rhi::Texture> makeTexture(const rhi::Device& device, const PlanResou
 }
 
 // The images and buffers that the plan creates. Histories are made by makeHistories().
-rhi::Result<void> makeResources(Graph::State& state) {
+Result<void> makeResources(Graph::State& state) {
     rhi::TransientHeap heap;
     if (state.plan.heapBytes > 0) {
         auto made = state.device.createTransientHeap({.label = "transient images", .size = state.plan.heapBytes});
@@ -99,7 +99,7 @@ std::uint32_t Graph::State::layersOf(const PlanPass& pass) const {
 
 Graph::Graph(Descriptor descriptor) : descriptor_(std::move(descriptor)) {}
 
-Checked<void> Graph::build(const PassTree& tree, const HostDescription& host) {
+Result<void> Graph::build(const PassTree& tree, const HostDescription& host) {
     if (state_ && !stale_ && state_->tree == tree.shared() && same(state_->host, host)) return {};
     HostDescription asked = host;
     if (!asked.supports) {
@@ -118,7 +118,7 @@ Checked<void> Graph::build(const PassTree& tree, const HostDescription& host) {
         };
     }
     if (asked.classes.empty()) asked.classes = descriptor_.classes.infos();
-    Checked<Plan> plan = tree.compile(asked);
+    Result<Plan> plan = tree.compile(asked);
     if (!plan) return tl::unexpected(std::move(plan.error()));
 
     auto state = std::make_shared<State>();

@@ -13,7 +13,7 @@ class Binder {
 public:
     Binder(Graph::State& state, std::size_t index) : state_(state), pass_(state.plan.passes[index]) {}
 
-    rhi::Result<rhi::BindGroupEntry> entry(const BindGroupLayoutEntry& wanted) const {
+    Result<rhi::BindGroupEntry> entry(const BindGroupLayoutEntry& wanted) const {
         rhi::BindGroupEntry made{.binding = wanted.binding};
         if (wanted.type == BindingType::Sampler || wanted.type == BindingType::ComparisonSampler) {
             const auto found = state_.fixtures->samplers.find(wanted.name);
@@ -45,16 +45,16 @@ public:
     }
 
 private:
-    tl::unexpected<rhi::Error> missing(const BindGroupLayoutEntry& wanted, const std::string& hint) const {
-        return tl::unexpected(shaderError("S011", "a shader of pass '" + pass_.name + "' uses '" + wanted.name +
+    tl::unexpected<Diagnostic> missing(const BindGroupLayoutEntry& wanted, const std::string& hint) const {
+        return tl::unexpected(shaderError("P074", "a shader of pass '" + pass_.name + "' uses '" + wanted.name +
                                                       "' (set 1, binding " + std::to_string(wanted.binding) +
                                                       ") but no slot of the pass binds it" +
                                                       (hint.empty() ? "" : "; hint: " + hint)));
     }
-    tl::unexpected<rhi::Error> kind(const BindGroupLayoutEntry& wanted, const PlanSlot& slot,
+    tl::unexpected<Diagnostic> kind(const BindGroupLayoutEntry& wanted, const PlanSlot& slot,
                                     const std::string& text) const {
         return tl::unexpected(shaderError(
-            "S012", "'" + wanted.name + "' in a shader of '" + pass_.name + "." + slot.name + "' is " + text));
+            "P075", "'" + wanted.name + "' in a shader of '" + pass_.name + "." + slot.name + "' is " + text));
     }
 
     // An optional slot that nothing feeds still needs something to bind.
@@ -65,7 +65,7 @@ private:
         return state_.fixtures->constants.at(name);
     }
 
-    rhi::Result<rhi::TextureView> viewFor(const BindGroupLayoutEntry& wanted, const PlanSlot& slot) const {
+    Result<rhi::TextureView> viewFor(const BindGroupLayoutEntry& wanted, const PlanSlot& slot) const {
         const rhi::Texture texture = slot.resource == ~0U ? standIn(wanted) : state_.textures[slot.resource];
         if (!texture) return kind(wanted, slot, "an image, and the slot has none");
         const bool manySamples = texture.sampleCount() > 1;
@@ -121,16 +121,16 @@ rhi::Buffer bufferOf(const Graph::State& state, const PlanPass& pass, std::strin
     return {};
 }
 
-rhi::Error shaderError(std::string_view code, std::string text) {
-    return {.kind = rhi::ErrorKind::Validation,
+Diagnostic shaderError(std::string_view code, std::string text) {
+    return {.kind = ErrorKind::Validation,
             .code = rhi::ErrorCode::BindingMismatch,
             .message = std::string(code) + ": " + text};
 }
 
-rhi::Result<rhi::BindGroup> bindGroupFor(Graph::State& state, std::size_t pass, const rhi::BindGroupLayout& layout) {
+Result<rhi::BindGroup> bindGroupFor(Graph::State& state, std::size_t pass, const rhi::BindGroupLayout& layout) {
     if (!layout)
         return tl::unexpected(
-            shaderError("S011", "pass '" + state.plan.passes[pass].name + "': empty bind group layout"));
+            shaderError("P074", "pass '" + state.plan.passes[pass].name + "': empty bind group layout"));
     std::vector<const void*> lent = lentTo(state, state.plan.passes[pass]);
     auto& cache = state.passes[pass].groups;
     const std::pair<const void*, std::uint32_t> key{layout.get(), turnOf(state, state.plan.passes[pass])};

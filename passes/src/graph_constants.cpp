@@ -13,7 +13,7 @@ struct SamplerRow {
     rhi::AddressMode address;
 };
 
-rhi::Result<rhi::Texture> makeConstant(const rhi::Device& device, const std::string& name,
+Result<rhi::Texture> makeConstant(const rhi::Device& device, const std::string& name,
                                        std::array<std::uint8_t, 4> texel, rhi::TextureFormat format,
                                        std::uint32_t layers) {
     auto usage = rhi::TextureUsage::TextureBinding | rhi::TextureUsage::CopyDst;
@@ -36,7 +36,7 @@ bool isComparison(std::string_view sampler) {
     return sampler == "s_shadow";
 }
 
-rhi::Result<std::shared_ptr<const Fixtures>> makeFixtures(const rhi::Device& device, DepthConvention depth) {
+Result<std::shared_ptr<const Fixtures>> makeFixtures(const rhi::Device& device, DepthConvention depth) {
     auto fixtures = std::make_shared<Fixtures>();
     fixtures->depth = depth;
     using rhi::AddressMode;

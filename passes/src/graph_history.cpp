@@ -19,7 +19,7 @@ const History* sameIn(const Graph::State& state, const PlanResource& resource) {
     return nullptr;
 }
 
-rhi::Result<void> makeOne(Graph::State& state, History& history, std::size_t turn) {
+Result<void> makeOne(Graph::State& state, History& history, std::size_t turn) {
     const PlanResource& resource = state.plan.resources[history.last];
     const std::string label = resource.name + (turn == 0 ? " (even frames)" : " (odd frames)");
     if (resource.isBuffer) {
@@ -38,7 +38,7 @@ rhi::Result<void> makeOne(Graph::State& state, History& history, std::size_t tur
     return {};
 }
 
-rhi::Result<void> clear(const Graph::State& state, const History& history, rhi::CommandEncoder& encoder) {
+Result<void> clear(const Graph::State& state, const History& history, rhi::CommandEncoder& encoder) {
     const PlanResource& resource = state.plan.resources[history.last];
     if (resource.isBuffer) {
         encoder.clearBuffer(state.buffers[history.last]);
@@ -64,7 +64,7 @@ rhi::Result<void> clear(const Graph::State& state, const History& history, rhi::
 
 }  // namespace
 
-rhi::Result<void> makeHistories(Graph::State& state, const Graph::State* before) {
+Result<void> makeHistories(Graph::State& state, const Graph::State* before) {
     for (std::uint32_t i = 0; i < state.plan.resources.size(); ++i) {
         const PlanResource& resource = state.plan.resources[i];
         if (resource.kind != PlanResource::Kind::History) continue;
@@ -96,7 +96,7 @@ void takeTurns(Graph::State& state) {
     }
 }
 
-rhi::Result<void> beginHistories(Graph::State& state, rhi::CommandEncoder& encoder) {
+Result<void> beginHistories(Graph::State& state, rhi::CommandEncoder& encoder) {
     takeTurns(state);
     for (const History& history : state.histories) {
         if (history.begun) continue;

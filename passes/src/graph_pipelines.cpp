@@ -56,21 +56,21 @@ private:
             own.recorder = std::move(*made);
             return;
         }
-        reporter_.error(place, "S004",
+        reporter_.error(place, "P072",
                         "class '" + pass.passClass + "' cannot make pass '" + pass.name +
-                            "': " + (made ? std::string("it gave no recorder") : rhi::toString(made.error())));
+                            "': " + (made ? std::string("it gave no recorder") : made.error().text()));
     }
 
     std::optional<rhi::ShaderModule> module(const std::string& file, const PlanPass& pass) {
         if (!shaders_) {
-            reporter_.error(place_, "S001", "no source of shaders was given for '" + file + "'");
+            reporter_.error(place_, "P070", "no source of shaders was given for '" + file + "'");
             return std::nullopt;
         }
         auto made = shaders_(file);
         if (made && *made) return std::move(*made);
-        reporter_.error(place_, "S001",
+        reporter_.error(place_, "P070",
                         "cannot load '" + file + "' of pass '" + pass.name + "'" +
-                            (made ? std::string{} : ": " + rhi::toString(made.error())));
+                            (made ? std::string{} : ": " + made.error().text()));
         return std::nullopt;
     }
 
@@ -88,7 +88,7 @@ private:
             for (const ConstantDeclaration& each : says_ ? says_->constants : std::vector<ConstantDeclaration>{}) {
                 if (each.name == name) place = each.place;
             }
-            reporter_.error(place, "S020", "'" + pass.shader + "' has no specialization constant '" + name + "'",
+            reporter_.error(place, "P077", "'" + pass.shader + "' has no specialization constant '" + name + "'",
                             didYouMean(name, known));
         }
         return made;
@@ -115,7 +115,7 @@ private:
         descriptor.multisample.count = made.targets.samples;
         for (const rhi::ReflectedVariable& output : fragment->reflection().outputs) {
             if (output.location < made.targets.colors.size()) continue;
-            reporter_.error(place_, "S013",
+            reporter_.error(place_, "P076",
                             "'" + pass.shader + "' writes '" + output.name + "' to location " +
                                 std::to_string(output.location) + "; '" + pass.name + "' has " +
                                 std::to_string(made.targets.colors.size()) + " color target(s)",
@@ -161,15 +161,15 @@ private:
         slotsAreUsed(made.layout, pass);
     }
 
-    void failed(const PlanPass& pass, const rhi::Error& error) {
-        reporter_.error(place_, "S003",
+    void failed(const PlanPass& pass, const Diagnostic& error) {
+        reporter_.error(place_, "P071",
                         "the pipeline of pass '" + pass.name + "' cannot be made: " + rhi::toString(error));
     }
 
     void onlySlotSet(const rhi::ShaderModule& shader, const PlanPass& pass) {
         for (const rhi::ReflectedBinding& binding : shader.reflection().bindings) {
             if (binding.group == slotSet) continue;
-            reporter_.error(place_, "S011",
+            reporter_.error(place_, "P074",
                             "'" + pass.shader + "' uses '" + binding.entry.name + "' (set " +
                                 std::to_string(binding.group) + ", binding " + std::to_string(binding.entry.binding) +
                                 "); slots of '" + pass.name + "' are bound in set 1 only");
@@ -185,7 +185,7 @@ private:
             if (slot.bind.empty() || has(known, slot.bind)) continue;
             const SlotDeclaration* declared = says_ ? says_->slot(slot.name) : nullptr;
             if (declared && declared->optional) continue;
-            reporter_.error(declared ? declared->bindPlace : place_, "S010",
+            reporter_.error(declared ? declared->bindPlace : place_, "P073",
                             "'" + pass.name + "." + slot.name + "' binds '" + slot.bind + "', '" + pass.shader +
                                 "' has no such resource",
                             didYouMean(slot.bind, known));
@@ -201,8 +201,8 @@ private:
         if (group) return;
         const std::string& message = group.error().message;
         const bool ours = message.size() > 6 && message[0] == 'S' && message[4] == ':';
-        reporter_.error(place_, ours ? message.substr(0, 4) : "S003",
-                        ours ? message.substr(6) : rhi::toString(group.error()));
+        reporter_.error(place_, ours ? message.substr(0, 4) : "P071",
+                        ours ? message.substr(6) : group.error().text());
     }
 
     Graph::State& state_;

@@ -20,7 +20,7 @@ rhi::Color loud(rhi::TextureFormat format) {
 
 }  // namespace
 
-rhi::Result<void> poison(const Graph::State& state, std::uint32_t pass, rhi::CommandEncoder& encoder) {
+Result<void> poison(const Graph::State& state, std::uint32_t pass, rhi::CommandEncoder& encoder) {
     for (std::size_t i = 0; i < state.plan.resources.size(); ++i) {
         const PlanResource& image = state.plan.resources[i];
         const bool begins = image.heapOffset != notPlaced && image.firstPass == pass;

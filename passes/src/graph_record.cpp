@@ -14,7 +14,7 @@ public:
     Recorder(Graph::State& state, rhi::CommandEncoder& encoder, const DrawCallback& draws)
         : state_(state), encoder_(encoder), draws_(draws) {}
 
-    rhi::Result<void> lend(const FrameImports& imports) {
+    Result<void> lend(const FrameImports& imports) {
         for (std::size_t i = 0; i < state_.plan.resources.size(); ++i) {
             const PlanResource& resource = state_.plan.resources[i];
             if (resource.kind != PlanResource::Kind::Import) continue;
@@ -42,12 +42,12 @@ public:
         return {};
     }
 
-    rhi::Result<void> pass(std::size_t index) {
+    Result<void> pass(std::size_t index) {
         const Clock::time_point begin = Clock::now();
         const PlanPass& pass = state_.plan.passes[index];
         PassState& own = state_.passes[index];
         own.draws = 0;
-        rhi::Result<void> done = {};
+        Result<void> done = {};
         for (const PlanSlot& slot : pass.slots) {
             if (slot.resource == ~0U || slot.load != rhi::LoadOp::Clear) continue;
             if (state_.plan.resources[slot.resource].isBuffer) encoder_.clearBuffer(state_.buffers[slot.resource]);
@@ -69,8 +69,8 @@ public:
     }
 
 private:
-    static tl::unexpected<rhi::Error> fault(std::string text) {
-        return tl::unexpected(rhi::Error{.code = rhi::ErrorCode::InvalidHandle, .message = std::move(text)});
+    static tl::unexpected<Diagnostic> fault(std::string text) {
+        return tl::unexpected(Diagnostic{.code = rhi::ErrorCode::InvalidHandle, .message = std::move(text)});
     }
 
     static std::string shape(const rhi::Extent3D& size, rhi::TextureFormat format, std::uint32_t samples) {
@@ -93,8 +93,8 @@ private:
         return made;
     }
 
-    rhi::Result<void> byClass(std::size_t index, PassContext& context) {
-        const rhi::Result<void> done = state_.passes[index].recorder(context);
+    Result<void> byClass(std::size_t index, PassContext& context) {
+        const Result<void> done = state_.passes[index].recorder(context);
         state_.passes[index].draws += context.draws;
         return done;
     }
@@ -104,14 +104,14 @@ private:
         return rhi::TimestampWrites{state_.timestamps, 2 * query, 2 * query + 1};
     }
 
-    rhi::Result<rhi::TextureView> target(const PlanSlot& slot, std::uint32_t layer) const {
+    Result<rhi::TextureView> target(const PlanSlot& slot, std::uint32_t layer) const {
         return state_.textures[slot.resource].createView({.dimension = rhi::TextureViewDimension::E2D,
                                                           .mipLevelCount = 1,
                                                           .baseArrayLayer = layer,
                                                           .arrayLayerCount = 1});
     }
 
-    rhi::Result<void> draw(std::size_t index, std::uint32_t layer) {
+    Result<void> draw(std::size_t index, std::uint32_t layer) {
         const PlanPass& pass = state_.plan.passes[index];
         PassState& own = state_.passes[index];
         const std::uint32_t query = own.queries.first + layer;
@@ -139,7 +139,7 @@ private:
         }
         extent.depthOrArrayLayers = 1;
         rhi::RenderPassEncoder recording = encoder_.beginRenderPass(descriptor);
-        rhi::Result<void> done = {};
+        Result<void> done = {};
         if (own.recorder) {
             PassContext given = context(index);
             given.extent = extent;
@@ -154,7 +154,7 @@ private:
         return done;
     }
 
-    rhi::Result<void> raster(std::size_t index, std::uint32_t layer, const rhi::Extent3D& extent,
+    Result<void> raster(std::size_t index, std::uint32_t layer, const rhi::Extent3D& extent,
                              rhi::RenderPassEncoder& recording) {
         if (!draws_) return {};
         RasterContext context{
@@ -167,12 +167,12 @@ private:
                           index](const rhi::BindGroupLayout& layout) { return bindGroupFor(state_, index, layout); },
             .buffer = [this,
                        index](std::string_view slot) { return bufferOf(state_, state_.plan.passes[index], slot); }};
-        const rhi::Result<void> done = draws_(context);
+        const Result<void> done = draws_(context);
         state_.passes[index].draws += context.draws;
         return done;
     }
 
-    rhi::Result<void> fullscreen(std::size_t index, rhi::RenderPassEncoder& recording) {
+    Result<void> fullscreen(std::size_t index, rhi::RenderPassEncoder& recording) {
         PassState& own = state_.passes[index];
         recording.setPipeline(own.pipeline);
         if (own.layout) {
@@ -185,7 +185,7 @@ private:
         return {};
     }
 
-    rhi::Result<void> compute(std::size_t index) {
+    Result<void> compute(std::size_t index) {
         const PlanPass& pass = state_.plan.passes[index];
         PassState& own = state_.passes[index];
         if (own.recorder) {
@@ -193,7 +193,7 @@ private:
             rhi::ComputePassEncoder recording =
                 encoder_.beginComputePass({.label = pass.name, .timestampWrites = timestamps(own.queries.first)});
             given.compute = &recording;
-            const rhi::Result<void> done = byClass(index, given);
+            const Result<void> done = byClass(index, given);
             recording.end();
             return done;
         }
@@ -218,15 +218,15 @@ private:
         return {};
     }
 
-    rhi::Result<void> copy(std::size_t index) {
+    Result<void> copy(std::size_t index) {
         const PassState& own = state_.passes[index];
         if (state_.timestamps) encoder_.writeTimestamp(state_.timestamps, 2 * own.queries.first);
-        const rhi::Result<void> done = copies(index);
+        const Result<void> done = copies(index);
         if (state_.timestamps) encoder_.writeTimestamp(state_.timestamps, 2 * own.queries.first + 1);
         return done;
     }
 
-    rhi::Result<void> copies(std::size_t index) {
+    Result<void> copies(std::size_t index) {
         if (state_.passes[index].recorder) {
             PassContext given = context(index);
             given.copy = &encoder_;
@@ -260,9 +260,9 @@ private:
 
 }  // namespace
 
-rhi::Result<void> Graph::record(rhi::CommandEncoder& encoder, const FrameImports& imports, const DrawCallback& draws) {
+Result<void> Graph::record(rhi::CommandEncoder& encoder, const FrameImports& imports, const DrawCallback& draws) {
     if (!state_) {
-        return tl::unexpected(rhi::Error{.code = rhi::ErrorCode::MissingState,
+        return tl::unexpected(Diagnostic{.code = rhi::ErrorCode::MissingState,
                                          .message = "Graph::record() before a build() that worked"});
     }
     Recorder recorder(*state_, encoder, draws);
@@ -273,7 +273,7 @@ rhi::Result<void> Graph::record(rhi::CommandEncoder& encoder, const FrameImports
         return begun;
     }
     for (std::size_t i = 0; i < state_->passes.size(); ++i) {
-        rhi::Result<void> done = {};
+        Result<void> done = {};
         if (descriptor_.poison) done = poison(*state_, static_cast<std::uint32_t>(i), encoder);
         if (done) done = recorder.pass(i);
         if (!done) {

@@ -24,10 +24,10 @@ bool hasStatistics(const PlanPass& pass) {
 
 }  // namespace
 
-rhi::Result<void> makeQueries(Graph::State& state) {
+Result<void> makeQueries(Graph::State& state) {
     if (state.queryCount == 0) return {};
     const auto make = [&](rhi::QueryType type, std::uint32_t count, std::uint64_t bytes, rhi::QuerySet& set,
-                          rhi::Buffer& results) -> rhi::Result<void> {
+                          rhi::Buffer& results) -> Result<void> {
         auto queries = state.device.createQuerySet({.label = "passes", .type = type, .count = count});
         if (!queries) return tl::unexpected(std::move(queries.error()));
         auto buffer = state.device.createBuffer({.label = "pass reports",

@@ -16,7 +16,7 @@ struct Fixtures {
     std::map<std::string, rhi::Texture> constants = {};
     DepthConvention depth = DepthConvention::Reversed;
 };
-rhi::Result<std::shared_ptr<const Fixtures>> makeFixtures(const rhi::Device& device, DepthConvention depth);
+Result<std::shared_ptr<const Fixtures>> makeFixtures(const rhi::Device& device, DepthConvention depth);
 
 /// Queries of one pass: a pair of timestamps and one statistics query for each render pass it is recorded as.
 struct PassQueries {
@@ -72,31 +72,31 @@ struct Graph::State {
 };
 
 /// The pairs of the plan's histories; those of `before` that are of the same shape are taken over.
-rhi::Result<void> makeHistories(Graph::State& state, const Graph::State* before);
+Result<void> makeHistories(Graph::State& state, const Graph::State* before);
 void takeTurns(Graph::State& state);
-rhi::Result<void> beginHistories(Graph::State& state, rhi::CommandEncoder& encoder);
+Result<void> beginHistories(Graph::State& state, rhi::CommandEncoder& encoder);
 void endHistories(Graph::State& state);
 /// Which of a pair is written now, for passes that use one; 0 for the others.
 std::uint32_t turnOf(const Graph::State& state, const PlanPass& pass);
 
 /// Paints the images that begin with this pass (graph_poison.cpp).
-rhi::Result<void> poison(const Graph::State& state, std::uint32_t pass, rhi::CommandEncoder& encoder);
+Result<void> poison(const Graph::State& state, std::uint32_t pass, rhi::CommandEncoder& encoder);
 
 /// The image or buffer of a slot by its name.
 rhi::Texture textureOf(const Graph::State& state, const PlanPass& pass, std::string_view slot);
 rhi::Buffer bufferOf(const Graph::State& state, const PlanPass& pass, std::string_view slot);
 
-/// Names a fault of a pass's shader: "S010", "S011", … in front of the sentence.
-rhi::Error shaderError(std::string_view code, std::string text);
+/// Names a fault of a pass's shader: "P073", "P074", … in front of the sentence.
+Diagnostic shaderError(std::string_view code, std::string text);
 
 /// The group of set 1 for this layout: slots and samplers by the names of the shader's resources.
-rhi::Result<rhi::BindGroup> bindGroupFor(Graph::State& state, std::size_t pass, const rhi::BindGroupLayout& layout);
+Result<rhi::BindGroup> bindGroupFor(Graph::State& state, std::size_t pass, const rhi::BindGroupLayout& layout);
 
 /// Pipelines of fullscreen and compute passes and the recorders of classes; everything wrong at once.
 void makePipelines(Graph::State& state, const ShaderSource& shaders, const PassClassRegistry& classes,
                    const PassTree::Description& tree, Reporter& reporter);
 
-rhi::Result<void> makeQueries(Graph::State& state);
+Result<void> makeQueries(Graph::State& state);
 /// Copies the queries of a frame to where the host can read them.
 void resolveQueries(const Graph::State& state, rhi::CommandEncoder& encoder);
 

@@ -29,8 +29,8 @@ std::string besides(const std::string& file, const std::string& name) {
 }
 
 // A fixed schema, compiled once: a constant like the text it is made of.
-const Checked<json::Schema>& schema() {
-    static const Checked<json::Schema> compiled = json::Schema::parse(passTreeSchema(), "passtree.schema.json");
+const Result<json::Schema>& schema() {
+    static const Result<json::Schema> compiled = json::Schema::parse(passTreeSchema(), "passtree.schema.json");
     return compiled;
 }
 
@@ -81,7 +81,7 @@ private:
             reporter.error(name.place, "P057", "more than " + std::to_string(mostFiles) + " files in one tree");
             return;
         }
-        Checked<json::Document> document = open(path, other);
+        Result<json::Document> document = open(path, other);
         if (document) return take(std::move(*document), name.place);
         const Diagnostic& fault = document.error().items().front();
         if (fault.code != "F001") return out_.append(document.error());
@@ -90,12 +90,12 @@ private:
                                         : "a tree read from memory needs a reader");
     }
 
-    Checked<json::Document> open(const std::string& path, const std::string& other) {
+    Result<json::Document> open(const std::string& path, const std::string& other) {
         if (reader_) {
             if (const std::optional<std::string> text = reader_(path)) return json::parse(*text, path);
         } else if (disk_) {
             for (const std::string& each : {path, other}) {
-                Checked<json::Document> document = json::parseFile(each);
+                Result<json::Document> document = json::parseFile(each);
                 const bool absent = !document && document.error().items().front().code == "F001";
                 if (!absent) source_.onDisk.push_back(each);
                 if (!absent) return document;

@@ -99,7 +99,7 @@ struct Linker {
 float depthOf(const SlotDeclaration& slot, DepthConvention convention);
 
 struct Linked {
-    Checked<Plan> plan;
+    Result<Plan> plan;
     std::uint64_t visits = 0;
 };
 /// What PassTree::compile does.

@@ -34,7 +34,7 @@ std::optional<SettingValue> checkedSetting(const SettingDeclaration& declared, c
     if (expected.empty()) return value;
     const std::string shown =
         given.type == SettingValue::Type::Enum ? "'" + given.word + "'" : std::to_string(given.number);
-    reporter.error(declared.place, "H003", "setting '" + info.name + "' cannot be " + shown + ": expected " + expected);
+    reporter.error(declared.place, "P082", "setting '" + info.name + "' cannot be " + shown + ": expected " + expected);
     return std::nullopt;
 }
 
@@ -56,7 +56,7 @@ double Linker::constant(const NumberOrSetting& value) const {
 
 void Linker::evaluateConditions() {
     if (host.extent.width == 0 || host.extent.height == 0) {
-        reporter.error({}, "H004",
+        reporter.error({}, "P083",
                        "the frame is " + std::to_string(host.extent.width) + " x " + std::to_string(host.extent.height),
                        "build no plan while there is nothing to draw on");
     }
@@ -69,7 +69,7 @@ void Linker::evaluateConditions() {
     }
     for (const auto& [name, value] : host.settings) {
         if (!tree.setting(name)) {
-            reporter.error({}, "H003", "the tree '" + tree.name + "' has no setting '" + name + "'",
+            reporter.error({}, "P082", "the tree '" + tree.name + "' has no setting '" + name + "'",
                            didYouMean(name, namesOf(tree.settingInfos)));
         }
     }
@@ -79,13 +79,13 @@ void Linker::evaluateConditions() {
     }
     for (const auto& [name, lent] : host.imports) {
         if (!tree.import(name)) {
-            reporter.warning({}, "H005", "the tree '" + tree.name + "' takes no import '" + name + "'",
+            reporter.warning({}, "P084", "the tree '" + tree.name + "' takes no import '" + name + "'",
                              didYouMean(name, namesOf(tree.imports)));
         }
     }
     for (const std::string& name : host.unwantedExports) {
         if (has(namesOf(tree.exports), name)) continue;
-        reporter.warning({}, "H005", "the tree '" + tree.name + "' has no export '" + name + "' to leave out",
+        reporter.warning({}, "P084", "the tree '" + tree.name + "' has no export '" + name + "' to leave out",
                          didYouMean(name, namesOf(tree.exports)));
     }
     for (const ViewDeclaration& view : tree.views) {

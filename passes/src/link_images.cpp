@@ -146,12 +146,12 @@ private:
             for (const rhi::TextureFormat format : says.formats)
                 accepted += (accepted.empty() ? "" : ", ") + std::string(rhi::name(format));
             linker_.reporter.error(
-                says.place, "H002",
+                says.place, "P081",
                 "'" + image.name + "' is " + std::string(rhi::name(lent.format)) + "; the tree accepts " + accepted);
         }
         if (!says.samples.empty() &&
             std::find(says.samples.begin(), says.samples.end(), lent.samples) == says.samples.end()) {
-            linker_.reporter.error(says.place, "H002",
+            linker_.reporter.error(says.place, "P081",
                                    "'" + image.name + "' has " + std::to_string(lent.samples) +
                                        " samples, which the tree does not accept");
         }

@@ -115,7 +115,7 @@ private:
         if (failedAlready(last)) return;
         if (last.root == Root::Host) {
             const ImportDeclaration* import = linker_.tree.import(last.member);
-            linker_.reporter.error(import ? import->place : last.place, "H001",
+            linker_.reporter.error(import ? import->place : last.place, "P080",
                                    "the host does not lend '" + last.member + "', which '" + title(link) + "' needs");
             return;
         }

@@ -5,7 +5,7 @@
 namespace pelage::passes {
 namespace {
 
-Checked<std::shared_ptr<const PassTree::Description>> describe(Checked<json::Document> document,
+Result<std::shared_ptr<const PassTree::Description>> describe(Result<json::Document> document,
                                                                const TextReader& reader, const IncludePath& elsewhere,
                                                                bool disk) {
     if (!document) return tl::unexpected(std::move(document.error()));
@@ -26,7 +26,7 @@ Checked<std::shared_ptr<const PassTree::Description>> describe(Checked<json::Doc
 
 }  // namespace
 
-Checked<std::shared_ptr<const PassTree>> PassTree::parse(std::string_view text, const std::string& file,
+Result<std::shared_ptr<const PassTree>> PassTree::parse(std::string_view text, const std::string& file,
                                                          const TextReader& reader) {
     auto description = describe(json::parse(text, file), reader, {}, false);
     if (!description) return tl::unexpected(std::move(description.error()));
@@ -35,7 +35,7 @@ Checked<std::shared_ptr<const PassTree>> PassTree::parse(std::string_view text, 
     return tree;
 }
 
-Checked<std::shared_ptr<const PassTree>> PassTree::load(const std::string& path, const IncludePath& elsewhere) {
+Result<std::shared_ptr<const PassTree>> PassTree::load(const std::string& path, const IncludePath& elsewhere) {
     auto description = describe(json::parseFile(path), {}, elsewhere, true);
     if (!description) return tl::unexpected(std::move(description.error()));
     auto tree = std::make_shared<PassTree>();
@@ -85,7 +85,7 @@ const Diagnostics& PassTree::warnings() const {
     return description_->warnings;
 }
 
-Checked<Plan> PassTree::compile(const HostDescription& host) const {
+Result<Plan> PassTree::compile(const HostDescription& host) const {
     return link(*description_, host, {}).plan;
 }
 

@@ -48,7 +48,7 @@ struct Arguments {
     bool validation = false;
 };
 
-Checked<void> run(const Arguments& arguments) {
+Result<void> run(const Arguments& arguments) {
     const auto failed = [](Diagnostic diagnostic) {
         Diagnostics all;
         all.add(std::move(diagnostic));
@@ -86,11 +86,11 @@ Checked<void> run(const Arguments& arguments) {
                                                ++complaints;
                                                std::fprintf(stderr, "%s\n", m.text.c_str());
                                            }});
-    if (!instance) return failed(hair::toDiagnostic(instance.error()));
+    if (!instance) return failed(instance.error());
     auto adapter = instance->requestAdapter();
-    if (!adapter) return failed(hair::toDiagnostic(adapter.error()));
+    if (!adapter) return failed(adapter.error());
     auto device = adapter->requestDevice();
-    if (!device) return failed(hair::toDiagnostic(device.error()));
+    if (!device) return failed(device.error());
     // The shader by the name that the material type gives it.
     auto renderer = hair::Renderer::create({.device = *device, .tree = *tree, .shaders = sample::embeddedShader});
     if (!renderer) return failed(renderer.error());

@@ -31,7 +31,7 @@ passes::PassClass outline() {
                                  .description = "How much nearer an edge is, as a part of the distance",
                                  .min = 0.001,
                                  .defaultNumber = 0.03}}};
-    made.create = [](const passes::PassSetup& setup) -> rhi::Result<passes::PassRecorder> {
+    made.create = [](const passes::PassSetup& setup) -> Result<passes::PassRecorder> {
         auto vertex = setup.shaders("fullscreen.vert"), fragment = setup.shaders("outline.frag");
         if (!vertex || !fragment) return tl::unexpected(vertex ? fragment.error() : vertex.error());
         rhi::RenderPipelineDescriptor descriptor{.label = "outline", .vertex = {.module = *vertex}};
@@ -41,7 +41,7 @@ passes::PassClass outline() {
         descriptor.targets.push_back({.format = setup.targets.colors.at(0)});
         auto pipeline = setup.device.createRenderPipeline(descriptor);
         if (!pipeline) return tl::unexpected(pipeline.error());
-        return passes::PassRecorder([pipeline = *pipeline](passes::PassContext& context) -> rhi::Result<void> {
+        return passes::PassRecorder([pipeline = *pipeline](passes::PassContext& context) -> Result<void> {
             auto group = context.bindGroup(pipeline.bindGroupLayout(1));
             if (!group) return tl::unexpected(group.error());
             context.raster->setPipeline(pipeline);
@@ -61,7 +61,7 @@ struct Arguments {
     bool validation = false;
 };
 
-Checked<void> run(Arguments arguments) {
+Result<void> run(Arguments arguments) {
     const auto failed = [](Diagnostic diagnostic) {
         Diagnostics all;
         all.add(std::move(diagnostic));
@@ -98,11 +98,11 @@ Checked<void> run(Arguments arguments) {
                                                ++complaints;
                                                std::fprintf(stderr, "%s\n", m.text.c_str());
                                            }});
-    if (!instance) return failed(hair::toDiagnostic(instance.error()));
+    if (!instance) return failed(instance.error());
     auto adapter = instance->requestAdapter();
-    if (!adapter) return failed(hair::toDiagnostic(adapter.error()));
+    if (!adapter) return failed(adapter.error());
     auto device = adapter->requestDevice();
-    if (!device) return failed(hair::toDiagnostic(device.error()));
+    if (!device) return failed(device.error());
     passes::PassClassRegistry classes;
     classes.add(outline());
     auto renderer = hair::Renderer::create(

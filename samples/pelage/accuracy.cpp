@@ -55,7 +55,7 @@ void measureDistances(AccuracyResult& result, Workers& workers, const AccuracyEf
     });
 }
 
-Outcome<void> countCosts(AccuracyResult& result) {
+Result<void> countCosts(AccuracyResult& result) {
     hair::Library library(dataDirectory());
     auto parsed = library.material("brown");
     if (!parsed) return tl::unexpected(Failure(parsed.error()));
@@ -82,7 +82,7 @@ Outcome<void> countCosts(AccuracyResult& result) {
     return {};
 }
 
-Outcome<void> drawPlots(AccuracyResult& result, const fs::path& images) {
+Result<void> drawPlots(AccuracyResult& result, const fs::path& images) {
     const auto models = [](std::initializer_list<hair::ScatteringModel> wanted) {
         std::vector<const hair::ModelInfo*> found;
         for (const auto model : wanted) found.push_back(&hair::scatteringModels()[static_cast<std::size_t>(model)]);
@@ -109,7 +109,7 @@ Outcome<void> drawPlots(AccuracyResult& result, const fs::path& images) {
     return {};
 }
 
-Outcome<void> measure(AccuracyResult& result, const AccuracyOptions& options) {
+Result<void> measure(AccuracyResult& result, const AccuracyOptions& options) {
     const AccuracyEffort effort = options.quick ? quickEffort() : AccuracyEffort{};
     Workers workers;
     if (auto counted = countCosts(result); !counted) return counted;

@@ -83,7 +83,7 @@ struct RoundingResult {
     std::optional<double> gpu = {};
 };
 /// `device`: null leaves the GPU out.
-Outcome<std::vector<RoundingResult>> roundingOf(Workers& workers, const DeviceOptions* device,
+Result<std::vector<RoundingResult>> roundingOf(Workers& workers, const DeviceOptions* device,
                                                 const AccuracyEffort& effort);
 
 /// Relative change of S when something is stored in half floats.

@@ -93,7 +93,7 @@ std::span<const RoundingBand> roundingBands() {
     return bands;
 }
 
-Outcome<std::vector<RoundingResult>> roundingOf(Workers& workers, const DeviceOptions* device,
+Result<std::vector<RoundingResult>> roundingOf(Workers& workers, const DeviceOptions* device,
                                                 const AccuracyEffort& effort) {
     std::vector<RoundingResult> results;
     for (const auto model : {hair::ScatteringModel::Chiang, hair::ScatteringModel::MomentLut}) {

@@ -34,7 +34,7 @@ constexpr Contender known[] = {{"moment_lut", "brown", "momentLut"},
                                {"kajiya_kay", "kajiya_brown", ""},
                                {"standard_pbr", "pbr_brown", ""}};
 
-Outcome<std::vector<Contender>> choose(const std::vector<std::string>& names) {
+Result<std::vector<Contender>> choose(const std::vector<std::string>& names) {
     std::vector<Contender> chosen;
     for (const std::string& name : names) {
         const auto found =
@@ -63,7 +63,7 @@ struct Samples {
 };
 
 /// The material of a contender, on all hair of the scene where one is given.
-Outcome<materials::Material> materialOf(const Contender& contender, hair::Library& library) {
+Result<materials::Material> materialOf(const Contender& contender, hair::Library& library) {
     auto parsed = library.material(contender.material);
     if (!parsed) return tl::unexpected(Failure(parsed.error()));
     if (*contender.model != '\0') {
@@ -90,7 +90,7 @@ ModelResult summarise(const Contender& contender, const Samples& samples) {
     return result;
 }
 
-Outcome<void> measure(std::vector<Samples>& all, hair::Renderer& renderer, const hair::FrameSettings& frame,
+Result<void> measure(std::vector<Samples>& all, hair::Renderer& renderer, const hair::FrameSettings& frame,
                       std::uint32_t repeat) {
     // The first round compiles shaders and uploads; it is not counted.
     for (std::uint32_t round = 0; round <= repeat; ++round) {

@@ -102,7 +102,7 @@ nlohmann::json modelJson(const BenchResult& result, const ModelResult& model) {
 
 }  // namespace
 
-Outcome<void> countOptions(const std::string& model, materials::Material& material,
+Result<void> countOptions(const std::string& model, materials::Material& material,
                            std::vector<InstructionResult>& results) {
     const materials::CompiledMaterial& compiled = material.compile();
     for (const auto& shader : compiled.shaders) {
@@ -111,7 +111,7 @@ Outcome<void> countOptions(const std::string& model, materials::Material& materi
         const auto code = hair::Renderer::shaderCode(file);
         if (code.empty()) return tl::unexpected(Failure("A061: there is no shader \"" + file + "\" in this build"));
         const auto count = [&](const std::string& variant,
-                               const std::vector<rhi::ConstantEntry>& constants) -> Outcome<void> {
+                               const std::vector<rhi::ConstantEntry>& constants) -> Result<void> {
             auto counted = countInstructions(code, constants);
             if (!counted) return tl::unexpected(counted.error());
             results.push_back({.model = model, .shader = file, .variant = variant, .instructions = *counted});
@@ -153,7 +153,7 @@ std::string benchText(const BenchResult& result) {
     return text + instructions.text();
 }
 
-Outcome<void> writeBenchJson(const std::string& path, const BenchResult& result) {
+Result<void> writeBenchJson(const std::string& path, const BenchResult& result) {
     nlohmann::json out = {{"format", "pelage.bench/1"}, {"scene", result.scene},        {"device", result.device},
                           {"driver", result.driver},    {"width", result.width},        {"height", result.height},
                           {"repeats", result.repeats},  {"yardstick", result.yardstick}};

@@ -41,11 +41,11 @@ struct BenchResult {
 };
 
 /// Counts the forward shader of a material as it is, and with each component that is on switched off.
-Outcome<void> countOptions(const std::string& model, materials::Material& material,
+Result<void> countOptions(const std::string& model, materials::Material& material,
                            std::vector<InstructionResult>& results);
 
 std::string benchText(const BenchResult& result);
 /// Through a temporary name, like every file this program writes.
-Outcome<void> writeBenchJson(const std::string& path, const BenchResult& result);
+Result<void> writeBenchJson(const std::string& path, const BenchResult& result);
 
 }  // namespace pelage::app

@@ -40,7 +40,7 @@ void tame(std::vector<float>& rgb) {
     for (float& value : rgb) value = std::isfinite(value) ? std::clamp(value, 0.0F, 65504.0F) : 0.0F;
 }
 
-Outcome<hair::Environment> fromHdr(const std::string& path) {
+Result<hair::Environment> fromHdr(const std::string& path) {
     const auto bytes = hair::readFile(path, std::size_t{1} << 29);
     if (!bytes) return tl::unexpected(Failure(bytes.error()));
     if (bytes->size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
@@ -58,7 +58,7 @@ Outcome<hair::Environment> fromHdr(const std::string& path) {
     return hair::Environment::fromEquirect(static_cast<std::uint32_t>(width), static_cast<std::uint32_t>(height), rgb);
 }
 
-Outcome<hair::Environment> fromExr(const std::string& path) {
+Result<hair::Environment> fromExr(const std::string& path) {
     try {
         Imf::RgbaInputFile file(path.c_str());
         const auto window = file.dataWindow();
@@ -87,7 +87,7 @@ Outcome<hair::Environment> fromExr(const std::string& path) {
 
 }  // namespace
 
-Outcome<hair::Environment> chooseEnvironment(const std::string& text) {
+Result<hair::Environment> chooseEnvironment(const std::string& text) {
     if (text == "none") return hair::Environment::none();
     if (text == "studio") return hair::Environment::studio();
     if (text.ends_with(".hdr")) return fromHdr(text);

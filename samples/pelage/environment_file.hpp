@@ -11,6 +11,6 @@
 namespace pelage::app {
 
 /// "none", "studio", or a path to an equirectangular .hdr or .exr.
-Outcome<hair::Environment> chooseEnvironment(const std::string& text);
+Result<hair::Environment> chooseEnvironment(const std::string& text);
 
 }  // namespace pelage::app

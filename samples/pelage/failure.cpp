@@ -41,7 +41,7 @@ Failure::Failure(const Diagnostics& diagnostics) {
     if (errors > 1) line += " (and " + std::to_string(errors - 1) + " more: see pelage check)";
 }
 
-Failure::Failure(const rhi::Error& error) : line(rhi::toString(error)) {}
+Failure::Failure(const Diagnostic& error) : line(rhi::toString(error)) {}
 
 int report(const Failure& failure) {
     std::fprintf(stderr, "pelage: error %s\n", oneLine(failure.line).c_str());

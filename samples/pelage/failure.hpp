@@ -22,7 +22,7 @@ struct Failure {
     explicit Failure(std::string text) : line(std::move(text)) {}
     Failure(const Diagnostic& diagnostic);    // NOLINT(google-explicit-constructor): errors convert at every return
     Failure(const Diagnostics& diagnostics);  // NOLINT(google-explicit-constructor)
-    Failure(const rhi::Error& error);         // NOLINT(google-explicit-constructor)
+    Failure(const Diagnostic& error);         // NOLINT(google-explicit-constructor)
 };
 
 template <class T>

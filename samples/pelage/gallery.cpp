@@ -26,7 +26,7 @@ public:
         : gpu_(gpu), library_(library), directory_(std::move(directory)) {}
 
     /// The line to print.
-    Outcome<std::string> paint(StageOptions options, const std::string& input) {
+    Result<std::string> paint(StageOptions options, const std::string& input) {
         const auto start = std::chrono::steady_clock::now();
         options.input = input;
         auto stage = makeStage(options, library_);
@@ -46,7 +46,7 @@ public:
     }
 
 private:
-    Outcome<void> prepare(const Stage& stage) {
+    Result<void> prepare(const Stage& stage) {
         if (renderer_ && tree_ == stage.tree->file()) return {};
         auto renderer = makeRenderer(gpu_, stage.tree, false);
         if (!renderer) return tl::unexpected(renderer.error());
@@ -62,7 +62,7 @@ private:
     std::string tree_ = {};
 };
 
-Outcome<std::vector<std::string>> chosenScenes(const std::vector<std::string>& only) {
+Result<std::vector<std::string>> chosenScenes(const std::vector<std::string>& only) {
     const auto all = sceneNames();
     if (all.empty()) {
         return tl::unexpected(

@@ -29,7 +29,7 @@ std::string adapterNames(const rhi::Instance& instance) {
 
 }  // namespace
 
-Outcome<Gpu> openInstance(const DeviceOptions& options, std::vector<std::string> surfaceExtensions) {
+Result<Gpu> openInstance(const DeviceOptions& options, std::vector<std::string> surfaceExtensions) {
     Gpu gpu;
     auto instance = rhi::Instance::create({
         .label = "pelage",
@@ -47,13 +47,13 @@ Outcome<Gpu> openInstance(const DeviceOptions& options, std::vector<std::string>
     return gpu;
 }
 
-Outcome<void> openDevice(Gpu& gpu, const DeviceOptions& options, const rhi::Surface& surface) {
+Result<void> openDevice(Gpu& gpu, const DeviceOptions& options, const rhi::Surface& surface) {
     auto adapter = gpu.instance.requestAdapter({.nameContains = options.name, .compatibleSurface = surface});
     if (!adapter) {
         const std::string names = adapterNames(gpu.instance);
         if (options.name.empty() || names.empty()) {
             return tl::unexpected(
-                Failure(rhi::toString(adapter.error()) +
+                Failure(adapter.error().text() +
                         " Install a Vulkan 1.3 driver; mesa-vulkan-drivers has one that needs no GPU"));
         }
         return tl::unexpected(Failure("A030: no device has \"" + options.name + "\" in its name; there are " + names));
@@ -65,14 +65,14 @@ Outcome<void> openDevice(Gpu& gpu, const DeviceOptions& options, const rhi::Surf
     return {};
 }
 
-Outcome<Gpu> openGpu(const DeviceOptions& options) {
+Result<Gpu> openGpu(const DeviceOptions& options) {
     auto gpu = openInstance(options);
     if (!gpu) return gpu;
     if (auto opened = openDevice(*gpu, options); !opened) return tl::unexpected(opened.error());
     return gpu;
 }
 
-Outcome<hair::Renderer> makeRenderer(const Gpu& gpu, const std::shared_ptr<const passes::PassTree>& tree,
+Result<hair::Renderer> makeRenderer(const Gpu& gpu, const std::shared_ptr<const passes::PassTree>& tree,
                                      bool measure) {
     auto renderer = hair::Renderer::create({.device = gpu.device, .tree = tree, .measure = measure});
     if (!renderer) return tl::unexpected(Failure(renderer.error()));

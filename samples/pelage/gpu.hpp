@@ -23,12 +23,12 @@ struct Gpu {
 };
 
 /// Opens the device; `surfaceExtensions` only for windows.
-Outcome<Gpu> openInstance(const DeviceOptions& options, std::vector<std::string> surfaceExtensions = {});
-Outcome<void> openDevice(Gpu& gpu, const DeviceOptions& options, const rhi::Surface& surface = {});
-Outcome<Gpu> openGpu(const DeviceOptions& options);
+Result<Gpu> openInstance(const DeviceOptions& options, std::vector<std::string> surfaceExtensions = {});
+Result<void> openDevice(Gpu& gpu, const DeviceOptions& options, const rhi::Surface& surface = {});
+Result<Gpu> openGpu(const DeviceOptions& options);
 
 /// A renderer for the pass tree.
-Outcome<hair::Renderer> makeRenderer(const Gpu& gpu, const std::shared_ptr<const passes::PassTree>& tree,
+Result<hair::Renderer> makeRenderer(const Gpu& gpu, const std::shared_ptr<const passes::PassTree>& tree,
                                      bool measure = true);
 
 /// exitOk, or a line and exitFailed when the validation layer found something.

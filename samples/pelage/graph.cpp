@@ -24,7 +24,7 @@ struct Drawn {
     int result = exitOk;  // of the device
 };
 
-Outcome<void> checkPath(const std::string& path) {
+Result<void> checkPath(const std::string& path) {
     if (path.ends_with(".html") || path.ends_with(".dot")) return {};
     return tl::unexpected(Failure("A120: \"" + path + "\" is neither .html nor .dot; name one of them"));
 }
@@ -43,7 +43,7 @@ std::vector<std::pair<std::string, std::string>> settingsOf(const passes::PassTr
     return shown;
 }
 
-Outcome<Drawn> compiled(const GraphOptions& options, const Size& size, hair::Library& library) {
+Result<Drawn> compiled(const GraphOptions& options, const Size& size, hair::Library& library) {
     auto tree = library.passTree(options.input);
     if (!tree) return tl::unexpected(Failure(tree.error()));
     passes::HostDescription host =
@@ -60,7 +60,7 @@ Outcome<Drawn> compiled(const GraphOptions& options, const Size& size, hair::Lib
     return Drawn{std::move(*plan), {.title = (*tree)->name(), .settings = settingsOf(**tree, host.settings)}};
 }
 
-Outcome<Drawn> measured(const GraphOptions& options, hair::Library& library) {
+Result<Drawn> measured(const GraphOptions& options, hair::Library& library) {
     auto stage = makeStage(
         {.input = options.measure, .size = options.size, .frame = options.input, .settings = options.settings},
         library);

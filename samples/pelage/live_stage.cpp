@@ -42,7 +42,7 @@ LiveStage::Polled LiveStage::poll() {
     return {.change = Change::Taken, .notes = stage_.file.notes};
 }
 
-Outcome<void> LiveStage::take() {
+Result<void> LiveStage::take() {
     hair::Library library(dataDirectory());  // a new one: it reads each type once
     auto stage = makeStage(options_, library);
     if (!stage) return tl::unexpected(stage.error());

@@ -16,7 +16,7 @@ namespace pelage::app {
 
 class LiveStage {
 public:
-    using MakeRenderer = std::function<Outcome<hair::Renderer>(const std::shared_ptr<const passes::PassTree>&)>;
+    using MakeRenderer = std::function<Result<hair::Renderer>(const std::shared_ptr<const passes::PassTree>&)>;
 
     /// `stage` was made of `options`; `make` gives a renderer on the same device each time.
     LiveStage(StageOptions options, Stage stage, hair::Renderer renderer, MakeRenderer make);
@@ -38,7 +38,7 @@ public:
     hair::Renderer& renderer() { return renderer_; }
 
 private:
-    Outcome<void> take();
+    Result<void> take();
 
     StageOptions options_;
     Stage stage_;

@@ -44,7 +44,7 @@ Failure wrong(const std::string& option, const std::string& text, const std::str
 
 }  // namespace
 
-Outcome<Size> parseSize(const std::string& text) {
+Result<Size> parseSize(const std::string& text) {
     const auto parts = split(text, 'x');
     Size size;
     if (parts.size() != 2 || !parseNumber(parts[0], size.width) || !parseNumber(parts[1], size.height) ||
@@ -54,7 +54,7 @@ Outcome<Size> parseSize(const std::string& text) {
     return size;
 }
 
-Outcome<hair::Camera> parseCamera(const std::string& text) {
+Result<hair::Camera> parseCamera(const std::string& text) {
     hair::Camera camera;
     const auto parts = split(text, ';');
     float degrees = glm::degrees(camera.verticalFov);
@@ -69,7 +69,7 @@ Outcome<hair::Camera> parseCamera(const std::string& text) {
     return camera;
 }
 
-Outcome<glm::vec3> parseColor(const std::string& text, const std::string& option) {
+Result<glm::vec3> parseColor(const std::string& text, const std::string& option) {
     glm::vec3 color = {};
     if (text.size() == 7 && text[0] == '#') {
         bool read = true;
@@ -87,7 +87,7 @@ Outcome<glm::vec3> parseColor(const std::string& text, const std::string& option
     return tl::unexpected(wrong(option, text, "\"r,g,b\" (scene-linear, not negative) or \"#rrggbb\" (sRGB)"));
 }
 
-Outcome<std::pair<std::string, std::string>> parseAssignment(const std::string& text, const std::string& option) {
+Result<std::pair<std::string, std::string>> parseAssignment(const std::string& text, const std::string& option) {
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0) {
         return tl::unexpected(wrong(option, text, "NAME=VALUE"));

@@ -38,12 +38,12 @@ struct DeviceOptions {
     bool validation = false;
 };
 
-Outcome<Size> parseSize(const std::string& text);
+Result<Size> parseSize(const std::string& text);
 /// "ex,ey,ez;tx,ty,tz[;fov_deg]"
-Outcome<hair::Camera> parseCamera(const std::string& text);
+Result<hair::Camera> parseCamera(const std::string& text);
 /// "r,g,b" scene-linear or "#rrggbb" sRGB.
-Outcome<glm::vec3> parseColor(const std::string& text, const std::string& option);
+Result<glm::vec3> parseColor(const std::string& text, const std::string& option);
 /// "name=value" split at the first equals sign.
-Outcome<std::pair<std::string, std::string>> parseAssignment(const std::string& text, const std::string& option);
+Result<std::pair<std::string, std::string>> parseAssignment(const std::string& text, const std::string& option);
 
 }  // namespace pelage::app

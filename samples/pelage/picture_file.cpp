@@ -75,7 +75,7 @@ void writeExr(const std::string& path, const hair::Picture& picture) {
 
 }  // namespace
 
-Outcome<void> checkPicturePath(const std::string& path) {
+Result<void> checkPicturePath(const std::string& path) {
     if (!path.ends_with(".png") && !path.ends_with(".exr")) {
         return tl::unexpected(Failure("A021: the output \"" + path + "\" ends in neither .png nor .exr"));
     }
@@ -87,7 +87,7 @@ Outcome<void> checkPicturePath(const std::string& path) {
     return {};
 }
 
-Outcome<void> writePicture(const std::string& path, const hair::Picture& picture) {
+Result<void> writePicture(const std::string& path, const hair::Picture& picture) {
     const std::size_t texels = std::size_t{picture.width} * picture.height * 4;
     const bool png = path.ends_with(".png");
     if (png ? picture.display.size() != texels : picture.linear.size() != texels) {

@@ -11,9 +11,9 @@
 namespace pelage::app {
 
 /// Fails when the ending is neither .png nor .exr, or the directory does not exist: ask before rendering.
-Outcome<void> checkPicturePath(const std::string& path);
+Result<void> checkPicturePath(const std::string& path);
 
 /// Writes beside `path` and renames at the end, so that a picture is either whole or not there.
-Outcome<void> writePicture(const std::string& path, const hair::Picture& picture);
+Result<void> writePicture(const std::string& path, const hair::Picture& picture);
 
 }  // namespace pelage::app

@@ -104,7 +104,7 @@ std::string svgText(const Drawing& drawing) {
     return text + "</svg>\n";
 }
 
-Outcome<void> checkDrawingPath(const std::string& path) {
+Result<void> checkDrawingPath(const std::string& path) {
     if (path.ends_with(".png")) return checkPicturePath(path);
     if (!path.ends_with(".svg")) {
         return tl::unexpected(Failure("A096: the plot \"" + path + "\" ends in neither .svg nor .png"));
@@ -118,7 +118,7 @@ Outcome<void> checkDrawingPath(const std::string& path) {
     return {};
 }
 
-Outcome<void> writeDrawing(const std::string& path, const Drawing& drawing) {
+Result<void> writeDrawing(const std::string& path, const Drawing& drawing) {
     if (!path.ends_with(".png")) return writeTextFile(path, svgText(drawing));
     hair::Picture picture{.width = drawing.width(), .height = drawing.height()};
     picture.display = rasterised(drawing);

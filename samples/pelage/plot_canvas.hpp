@@ -68,8 +68,8 @@ std::string svgText(const Drawing& drawing);
 std::vector<std::uint8_t> rasterised(const Drawing& drawing);
 
 /// Fails when the ending is neither .svg nor .png, or the directory does not exist: ask before computing.
-Outcome<void> checkDrawingPath(const std::string& path);
+Result<void> checkDrawingPath(const std::string& path);
 /// By the ending; the file is either whole or not there.
-Outcome<void> writeDrawing(const std::string& path, const Drawing& drawing);
+Result<void> writeDrawing(const std::string& path, const Drawing& drawing);
 
 }  // namespace pelage::app

@@ -11,7 +11,7 @@ std::span<const std::uint32_t> embeddedShader(std::string_view name);
 
 namespace {
 
-rhi::Result<rhi::ShaderModule> module(const rhi::Device& device, const char* file) {
+Result<rhi::ShaderModule> module(const rhi::Device& device, const char* file) {
     const auto code = shaders::embeddedShader(file);
     return device.createShaderModule({.label = file, .code = {code.begin(), code.end()}});
 }
@@ -22,7 +22,7 @@ bool isSrgb(rhi::TextureFormat format) {
 
 }  // namespace
 
-Outcome<void> Presenter::makePipeline(rhi::TextureFormat format) {
+Result<void> Presenter::makePipeline(rhi::TextureFormat format) {
     if (pipeline_ && format_ == format) return {};
     auto vertex = module(device_, "present.vert");
     if (!vertex) return tl::unexpected(Failure(vertex.error()));
@@ -41,7 +41,7 @@ Outcome<void> Presenter::makePipeline(rhi::TextureFormat format) {
     return {};
 }
 
-Outcome<rhi::Texture> Presenter::readable(rhi::CommandEncoder& encoder, const rhi::Texture& picture) {
+Result<rhi::Texture> Presenter::readable(rhi::CommandEncoder& encoder, const rhi::Texture& picture) {
     if (rhi::contains(picture.descriptor().usage, rhi::TextureUsage::TextureBinding)) return picture;
     if (!copy_ || copy_.size() != picture.size() || copy_.format() != picture.format()) {
         auto copy = device_.createTexture({.label = "present copy",
@@ -55,7 +55,7 @@ Outcome<rhi::Texture> Presenter::readable(rhi::CommandEncoder& encoder, const rh
     return copy_;
 }
 
-Outcome<void> Presenter::encode(rhi::CommandEncoder& encoder, const rhi::Texture& picture, const rhi::Texture& window) {
+Result<void> Presenter::encode(rhi::CommandEncoder& encoder, const rhi::Texture& picture, const rhi::Texture& window) {
     if (!picture)
         return tl::unexpected(Failure("A070: the pass tree exports no \"LdrColor\", so nothing can be shown"));
     if (auto made = makePipeline(window.format()); !made) return made;

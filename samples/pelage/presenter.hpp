@@ -13,12 +13,12 @@ class Presenter {
 public:
     explicit Presenter(rhi::Device device) : device_(std::move(device)) {}
 
-    Outcome<void> encode(rhi::CommandEncoder& encoder, const rhi::Texture& picture, const rhi::Texture& window);
+    Result<void> encode(rhi::CommandEncoder& encoder, const rhi::Texture& picture, const rhi::Texture& window);
 
 private:
-    Outcome<void> makePipeline(rhi::TextureFormat format);
+    Result<void> makePipeline(rhi::TextureFormat format);
     /// The picture as something a shader may read: itself, or a copy when the frame did not make it readable.
-    Outcome<rhi::Texture> readable(rhi::CommandEncoder& encoder, const rhi::Texture& picture);
+    Result<rhi::Texture> readable(rhi::CommandEncoder& encoder, const rhi::Texture& picture);
 
     rhi::Device device_;
     rhi::RenderPipeline pipeline_ = {};

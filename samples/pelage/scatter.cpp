@@ -20,7 +20,7 @@ Failure contradiction(const std::string& what) {
     return Failure("A095: " + what + "; see pelage scatter --help");
 }
 
-Outcome<const hair::ModelInfo*> findModel(const std::string& id) {
+Result<const hair::ModelInfo*> findModel(const std::string& id) {
     if (const hair::ModelInfo* info = hair::findScatteringModel(id)) return info;
     std::string known;
     for (const hair::ModelInfo& info : hair::scatteringModels()) {
@@ -29,7 +29,7 @@ Outcome<const hair::ModelInfo*> findModel(const std::string& id) {
     return tl::unexpected(Failure("A097: there is no scattering model \"" + id + "\"; known: " + known));
 }
 
-Outcome<ScatterMethod> methodOf(const ScatterOptions& options) {
+Result<ScatterMethod> methodOf(const ScatterOptions& options) {
     if (options.exact == !options.model.empty()) {
         return tl::unexpected(contradiction("expected --exact or --model ID, and not both"));
     }
@@ -49,7 +49,7 @@ Outcome<ScatterMethod> methodOf(const ScatterOptions& options) {
     return ScatterMethod{*model, options.published, options.precision == "float"};
 }
 
-Outcome<std::vector<std::optional<RowLobes>>> onDevice(const ScatterOptions& options, const ScatterMethod& method,
+Result<std::vector<std::optional<RowLobes>>> onDevice(const ScatterOptions& options, const ScatterMethod& method,
                                                        std::span<const ScatterRow> rows) {
     std::vector<ScatterQuery> queries;
     for (const ScatterRow& row : rows) {
@@ -105,7 +105,7 @@ int writeRows(const ScatterOptions& options) {
     return read->faults.empty() ? exitOk : exitSomeRowsBad;
 }
 
-Outcome<ScatterPlot> plotOf(const ScatterOptions& options) {
+Result<ScatterPlot> plotOf(const ScatterOptions& options) {
     ScatterPlot plot{.published = options.published};
     plot.fiber = {.thetaO = options.thetaO,
                   .eta = options.eta,

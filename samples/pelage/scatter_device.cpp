@@ -7,7 +7,7 @@
 
 namespace pelage::app {
 
-Outcome<std::vector<hair::ScatteredLobes>> scatterOnDevice(const DeviceOptions& options, hair::ScatteringModel model,
+Result<std::vector<hair::ScatteredLobes>> scatterOnDevice(const DeviceOptions& options, hair::ScatteringModel model,
                                                            bool published, std::span<const ScatterQuery> queries) {
     auto gpu = openGpu(options);
     if (!gpu) return tl::unexpected(gpu.error());

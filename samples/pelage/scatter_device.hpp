@@ -18,7 +18,7 @@ struct ScatterQuery {
 };
 
 /// One result for each query, in their order. Fails when there is no device, or its driver refuses the shader.
-Outcome<std::vector<hair::ScatteredLobes>> scatterOnDevice(const DeviceOptions& options, hair::ScatteringModel model,
+Result<std::vector<hair::ScatteredLobes>> scatterOnDevice(const DeviceOptions& options, hair::ScatteringModel model,
                                                            bool published, std::span<const ScatterQuery> queries);
 
 }  // namespace pelage::app

@@ -102,7 +102,7 @@ Diagnostic fault(const char* code, const std::string& name, std::size_t line, st
             .hint = std::move(hint)};
 }
 
-pelage::Outcome<Places> readHeader(const std::vector<std::string_view>& header, const std::string& name,
+pelage::Result<Places> readHeader(const std::vector<std::string_view>& header, const std::string& name,
                                    std::size_t line) {
     Places places;
     for (std::size_t column = 0; column < names.size(); ++column) {
@@ -177,7 +177,7 @@ std::span<const std::string_view, scatterColumnCount> scatterColumns() {
     return names;
 }
 
-pelage::Outcome<ScatterRows> readScatterRows(std::string_view text, const std::string& name) {
+pelage::Result<ScatterRows> readScatterRows(std::string_view text, const std::string& name) {
     if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff")) {
         return tl::unexpected(fault("A091", name, 1, "found UTF-16 text", "expected UTF-8; save it as such"));
     }

@@ -48,7 +48,7 @@ struct ScatterRows {
 };
 
 /// Any bytes are accepted. Cells are views into `text`, which must outlive the rows. `name` is for the error.
-pelage::Outcome<ScatterRows> readScatterRows(std::string_view text, const std::string& name);
+pelage::Result<ScatterRows> readScatterRows(std::string_view text, const std::string& name);
 
 /// S of R, TT, TRT, residual.
 using RowLobes = std::array<double, 4>;

@@ -29,7 +29,7 @@ const std::vector<Kind>& kinds() {
     return all;
 }
 
-Outcome<std::string> textOf(const Kind& kind, bool markdown) {
+Result<std::string> textOf(const Kind& kind, bool markdown) {
     const std::string data = dataDirectory() + "/";
     std::string text;
     std::vector<json::Document> documents;

@@ -19,7 +19,7 @@ bool isSceneFile(const std::string& path) {
     return path.ends_with(".json");
 }
 
-Outcome<hair::SceneFile> loadInput(const StageOptions& options, const Size& size, hair::Library& library,
+Result<hair::SceneFile> loadInput(const StageOptions& options, const Size& size, hair::Library& library,
                                    std::string& path) {
     std::error_code ignored;
     path = options.input;
@@ -43,7 +43,7 @@ Outcome<hair::SceneFile> loadInput(const StageOptions& options, const Size& size
     return std::move(*loaded);
 }
 
-Outcome<void> applyOverrides(hair::Scene& scene, const std::vector<std::string>& overrides, Diagnostics& notes) {
+Result<void> applyOverrides(hair::Scene& scene, const std::vector<std::string>& overrides, Diagnostics& notes) {
     for (const std::string& text : overrides) {
         auto assignment = parseAssignment(text, "--set");
         if (!assignment) return tl::unexpected(assignment.error());
@@ -58,7 +58,7 @@ Outcome<void> applyOverrides(hair::Scene& scene, const std::vector<std::string>&
     return {};
 }
 
-Outcome<void> applySettings(const std::vector<std::string>& settings, const passes::PassTree& tree,
+Result<void> applySettings(const std::vector<std::string>& settings, const passes::PassTree& tree,
                             hair::FrameSettings& frame) {
     for (const std::string& text : settings) {
         auto assignment = parseAssignment(text, "--setting");
@@ -70,7 +70,7 @@ Outcome<void> applySettings(const std::vector<std::string>& settings, const pass
     return {};
 }
 
-Outcome<void> applyView(const StageOptions& options, hair::SceneFile& file) {
+Result<void> applyView(const StageOptions& options, hair::SceneFile& file) {
     hair::Scene& scene = file.scene;
     if (!options.background.empty()) {
         auto color = parseColor(options.background, "--background");
@@ -99,7 +99,7 @@ Outcome<void> applyView(const StageOptions& options, hair::SceneFile& file) {
 
 }  // namespace
 
-Outcome<void> applyMaterial(hair::Scene& scene, const std::string& material, hair::Library& library) {
+Result<void> applyMaterial(hair::Scene& scene, const std::string& material, hair::Library& library) {
     if (material.empty()) return {};
     auto parsed = library.material(material);
     if (!parsed) return tl::unexpected(Failure(parsed.error()));
@@ -109,7 +109,7 @@ Outcome<void> applyMaterial(hair::Scene& scene, const std::string& material, hai
     return {};
 }
 
-Outcome<Stage> makeStage(const StageOptions& options, hair::Library& library) {
+Result<Stage> makeStage(const StageOptions& options, hair::Library& library) {
     Size size;
     if (!options.size.empty()) {
         auto parsed = parseSize(options.size);

@@ -20,9 +20,9 @@ struct Stage {
     std::vector<std::string> watched = {};  // files a viewer reloads when they change
 };
 
-Outcome<Stage> makeStage(const StageOptions& options, hair::Library& library);
+Result<Stage> makeStage(const StageOptions& options, hair::Library& library);
 
 /// Replaces the material of all hair; "" changes nothing.
-Outcome<void> applyMaterial(hair::Scene& scene, const std::string& material, hair::Library& library);
+Result<void> applyMaterial(hair::Scene& scene, const std::string& material, hair::Library& library);
 
 }  // namespace pelage::app

@@ -17,7 +17,7 @@ Failure notWritten(const std::string& path, const std::string& why) {
     return Failure("A094: " + path + ": the file cannot be written: " + why);
 }
 
-Outcome<void> writeOut(const std::string& text) {
+Result<void> writeOut(const std::string& text) {
     const bool whole = std::fwrite(text.data(), 1, text.size(), stdout) == text.size() && std::fflush(stdout) == 0;
     if (!whole) return tl::unexpected(Failure("A094: standard output takes no more; was the pipe closed?"));
     return {};
@@ -25,7 +25,7 @@ Outcome<void> writeOut(const std::string& text) {
 
 }  // namespace
 
-Outcome<std::string> readTextFile(const std::string& path) {
+Result<std::string> readTextFile(const std::string& path) {
     if (path == "-") return std::string(std::istreambuf_iterator<char>(std::cin), {});
     std::error_code ignored;
     if (fs::is_directory(path, ignored)) {
@@ -38,7 +38,7 @@ Outcome<std::string> readTextFile(const std::string& path) {
     return text;
 }
 
-Outcome<void> writeTextFile(const std::string& path, const std::string& text) {
+Result<void> writeTextFile(const std::string& path, const std::string& text) {
     if (path == "-") return writeOut(text);
     std::error_code unknown;
     if (fs::exists(path, unknown) && !fs::is_regular_file(path, unknown)) {

@@ -8,8 +8,8 @@
 
 namespace pelage::app {
 
-Outcome<std::string> readTextFile(const std::string& path);
+Result<std::string> readTextFile(const std::string& path);
 /// Writes beside `path` and renames at the end, so that a file is either whole or not there.
-Outcome<void> writeTextFile(const std::string& path, const std::string& text);
+Result<void> writeTextFile(const std::string& path, const std::string& text);
 
 }  // namespace pelage::app

@@ -34,7 +34,7 @@ public:
           presenter_(gpu_.device),
           orbit_(live_.stage().file.scene.camera) {}
 
-    Outcome<void> run() {
+    Result<void> run() {
         bool stale = true;
         std::uint32_t drawn = 0;
         while (!window_.closed()) {
@@ -79,7 +79,7 @@ private:
     }
 
     /// False when the window must be configured again.
-    Outcome<bool> draw(const rhi::Extent3D& size) {
+    Result<bool> draw(const rhi::Extent3D& size) {
         if (size != configured_) {
             if (auto done = surface_.configure(gpu_.device, {.size = size}); !done) {
                 return tl::unexpected(Failure(done.error()));

@@ -59,7 +59,7 @@ void listen(GLFWwindow* window) {
 
 }  // namespace
 
-Outcome<Window> Window::open(const std::string& title, std::uint32_t width, std::uint32_t height) {
+Result<Window> Window::open(const std::string& title, std::uint32_t width, std::uint32_t height) {
     if (glfwInit() != GLFW_TRUE) {
         return tl::unexpected(Failure("A080: no window can be opened: " + glfwReason() +
                                       "; without a display use pelage render or pelage gallery"));
@@ -84,7 +84,7 @@ std::vector<std::string> Window::surfaceExtensions() const {
     return names ? std::vector<std::string>(names, names + count) : std::vector<std::string>();
 }
 
-Outcome<rhi::Surface> Window::createSurface(const rhi::Instance& instance) const {
+Result<rhi::Surface> Window::createSurface(const rhi::Instance& instance) const {
     VkSurfaceKHR surface = VK_NULL_HANDLE;
     const VkResult made = glfwCreateWindowSurface(rhi::vulkan::instance(instance), state_->window, nullptr, &surface);
     if (made != VK_SUCCESS) {

@@ -21,11 +21,11 @@ struct WindowInput {
 
 class Window {
 public:
-    static Outcome<Window> open(const std::string& title, std::uint32_t width, std::uint32_t height);
+    static Result<Window> open(const std::string& title, std::uint32_t width, std::uint32_t height);
 
     /// What Instance::create must be told.
     std::vector<std::string> surfaceExtensions() const;
-    Outcome<rhi::Surface> createSurface(const rhi::Instance& instance) const;
+    Result<rhi::Surface> createSurface(const rhi::Instance& instance) const;
 
     /// Waits at most so long for events; returns what happened.
     WindowInput poll(double seconds);

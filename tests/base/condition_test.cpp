@@ -100,7 +100,7 @@ TEST(Condition, FaultsHaveCodeAndColumn) {
     for (const Row& row : rows) {
         const auto condition = Condition::parse(row.text, names);
         ASSERT_FALSE(condition) << row.text;
-        EXPECT_EQ(condition.error().code, row.code) << row.text << ": " << condition.error().text;
+        EXPECT_EQ(condition.error().code.text(), row.code) << row.text << ": " << condition.error().text;
         EXPECT_EQ(condition.error().column, row.column) << row.text << ": " << condition.error().text;
         EXPECT_EQ(condition.error().hint, row.hint) << row.text;
     }
@@ -117,7 +117,7 @@ TEST(Condition, SaysWhatItReads) {
 TEST(Condition, WithoutAFunctionNothingCanBeCalled) {
     const auto condition = Condition::parse("host.has('Sky')", {.names = names.names});
     ASSERT_FALSE(condition);
-    EXPECT_EQ(condition.error().code, "E002");
+    EXPECT_EQ(condition.error().code, Code("E002"));
 }
 
 TEST(Condition, HostileTextsEnd) {

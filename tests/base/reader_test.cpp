@@ -158,14 +158,14 @@ TEST(Reader, ByteOrderMarkIsSkippedAndNotCounted) {
 TEST(Reader, FilesThatCannotBeReadSayWhy) {
     const auto missing = json::parseFile("no/such/file.json");
     ASSERT_FALSE(missing);
-    EXPECT_EQ(missing.error().items()[0].code, "F001");
+    EXPECT_EQ(missing.error().items()[0].code, Code("F001"));
     EXPECT_EQ(first(missing.error()), "no/such/file.json: error F001: cannot open the file; hint: check the path");
 
     const std::string path = testing::TempDir() + "pelage_large.json";
     std::ofstream(path, std::ios::binary) << std::string((std::size_t{4} << 20U) + 1, ' ');
     const auto large = json::parseFile(path);
     ASSERT_FALSE(large);
-    EXPECT_EQ(large.error().items()[0].code, "F002");
+    EXPECT_EQ(large.error().items()[0].code, Code("F002"));
     std::ofstream(path, std::ios::binary) << "{\"a\": 1}";
     EXPECT_TRUE(json::parseFile(path));
     std::remove(path.c_str());

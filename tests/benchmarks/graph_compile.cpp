@@ -66,7 +66,7 @@ void buildUnchanged(benchmark::State& state) {
     const auto instance = rhi::Instance::create();
     const auto adapter = instance ? instance->requestAdapter() : tl::unexpected(instance.error());
     const auto device = adapter ? adapter->requestDevice() : tl::unexpected(adapter.error());
-    if (!device) return state.SkipWithError(rhi::toString(device.error()).c_str());
+    if (!device) return state.SkipWithError(device.error().text().c_str());
     // Copies between 30 images need no shaders.
     std::string attachments, passes, before = "host.In";
     for (int i = 0; i < 30; ++i) {

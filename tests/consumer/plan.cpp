@@ -36,13 +36,13 @@ int main() {
     if (plan->passes.empty()) return failed("the frame has no passes");
 
     const auto instance = rhi::Instance::create({.label = "consumer"});
-    if (!instance) return failed(rhi::toString(instance.error()));
+    if (!instance) return failed(instance.error().text());
     const auto adapter = instance->requestAdapter();
-    if (!adapter) return failed(rhi::toString(adapter.error()));
+    if (!adapter) return failed(adapter.error().text());
     const auto device = adapter->requestDevice();
-    if (!device) return failed(rhi::toString(device.error()));
+    if (!device) return failed(device.error().text());
     const auto shader = device->createShaderModule({.label = "no shader", .code = {1, 2, 3}});
     if (shader) return failed("three numbers were taken for a shader");
-    std::printf("%s\n", rhi::toString(shader.error()).c_str());
+    std::printf("%s\n", shader.error().text().c_str());
     return 0;
 }

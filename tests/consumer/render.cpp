@@ -50,11 +50,11 @@ int main() {
                                    ++complaints;
                                    failed(m.id + ": " + m.text);
                                }});
-    if (!instance) return failed(rhi::toString(instance.error()));
+    if (!instance) return failed(instance.error().text());
     auto adapter = instance->requestAdapter();
-    if (!adapter) return failed(rhi::toString(adapter.error()));
+    if (!adapter) return failed(adapter.error().text());
     auto device = adapter->requestDevice();
-    if (!device) return failed(rhi::toString(device.error()));
+    if (!device) return failed(device.error().text());
 
     hair::Library library(CONSUMER_DATA_DIR);
     auto tree = library.passTree("hair_frame");

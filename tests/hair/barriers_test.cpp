@@ -15,8 +15,8 @@ namespace {
 
 template <class T>
 auto good(T result) {
-    if constexpr (std::is_same_v<typename T::error_type, rhi::Error>) {
-        EXPECT_TRUE(result.has_value()) << rhi::toString(result.error());
+    if constexpr (std::is_same_v<typename T::error_type, Diagnostic>) {
+        EXPECT_TRUE(result.has_value()) << result.error().text();
     } else {
         EXPECT_TRUE(result.has_value());
     }

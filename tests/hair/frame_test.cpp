@@ -129,7 +129,7 @@ TEST_F(Frame, NoObjectsIsOneClearLine) {
     hair::Renderer renderer = rendererFor(shippedTree());
     const auto picture = renderer.render(scene, {.width = 16, .height = 16});
     ASSERT_FALSE(picture);
-    EXPECT_EQ(picture.error().code, "H101");
+    EXPECT_EQ(picture.error().code, Code("N002"));
 }
 
 }  // namespace

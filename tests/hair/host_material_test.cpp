@@ -120,25 +120,25 @@ TEST_F(HostMaterial, WhatTheShaderReadsMustBeGivenAsDeclared) {
     std::string text = edited("\"gain\": \"float\",", "\"gains\": \"float\",");
     text.replace(text.find("\"input\": \"gain\""), 15, "\"input\": \"gains\"");
     EXPECT_EQ(said(text),
-              "probe.frag: error S030: the uniform block has 'gain', which no input of the material type fills (type "
+              "probe.frag: error M051: the uniform block has 'gain', which no input of the material type fills (type "
               "'Probe'); hint: did you mean 'gains'?");
     text = edited("\"noiseMap\": \"texture2d\"", "\"noisyMap\": \"texture2d\"");
     text.replace(text.find("\"input\": \"noiseMap\""), 19, "\"input\": \"noisyMap\"");
     EXPECT_EQ(
         said(text),
-        "probe.frag: error S030: the shader samples 'noiseMap', which no texture input of the material type fills "
+        "probe.frag: error M051: the shader samples 'noiseMap', which no texture input of the material type fills "
         "(type 'Probe'); hint: did you mean 'noisyMap'?");
 
     text = edited("\"gain\": \"float\",", "\"gain\": \"float3\",");
     text.replace(text.find(R"("type": "float", "default": 1)"), 29, R"("type": "float3", "default": [1, 1, 1])");
     EXPECT_EQ(
         said(text),
-        "probe.frag: error S030: member 'gain' of the uniform block is float, the input is float3 (type 'Probe'); "
+        "probe.frag: error M051: member 'gain' of the uniform block is float, the input is float3 (type 'Probe'); "
         "hint: write vec3");
     text = edited("\"steps\": \"int\",", "\"steps\": \"float\",");
     text.replace(text.find(R"("type": "int", "default": 40)"), 28, R"("type": "float", "default": 40)");
     EXPECT_EQ(said(text),
-              "probe.frag: error S030: member 'steps' of the uniform block is int, the input is float (type 'Probe'); "
+              "probe.frag: error M051: member 'steps' of the uniform block is int, the input is float (type 'Probe'); "
               "hint: write float");
 }
 
@@ -155,10 +155,10 @@ TEST_F(HostMaterial, WhatNoMaterialFillsIsRefused) {
     });
     EXPECT_EQ(asked, 3U) << "hair.vert once, greedy.frag, and probe.frag of the second use";
     const char* const wanted[] = {
-        "greedy.frag: error S030: the uniform block has 'table', which no input of the material type fills",
-        "greedy.frag: error S030: set 2 has a second uniform block, 'second'",
-        "greedy.frag: error S030: 'Rows' in set 2 is none of what a material fills",
-        "greedy.frag: error S030: the shader samples 'noiseMap' as another kind of texture than the input, which is "
+        "greedy.frag: error M051: the uniform block has 'table', which no input of the material type fills",
+        "greedy.frag: error M051: set 2 has a second uniform block, 'second'",
+        "greedy.frag: error M051: 'Rows' in set 2 is none of what a material fills",
+        "greedy.frag: error M051: the shader samples 'noiseMap' as another kind of texture than the input, which is "
         "texture2d"};
     for (const char* line : wanted)
         EXPECT_NE(found.text().find(line), std::string::npos) << line << "\n" << found.text();
@@ -170,12 +170,12 @@ TEST_F(HostMaterial, WhatNoShaderReadsIsNoted) {
     text = text.replace(text.find("{ \"name\": \"pair\""), 0,
                         R"({ "name": "idle", "type": "float", "default": 1, "connect": { "input": "idle" } }, )");
     EXPECT_EQ(said(text),
-              "probe.materialtype.json: warning S031: input 'idle' is read by no shader of the material type; hint: "
+              "probe.materialtype.json: warning M052: input 'idle' is read by no shader of the material type; hint: "
               "declare it in the uniform block of set 2, or delete the input\n");
     text = edited("\"stripes\": { \"type\"", "\"strips\": { \"type\"");
     text.replace(text.find("\"option\": \"stripes\""), 19, "\"option\": \"strips\"");
     EXPECT_EQ(said(text),
-              "probe.materialtype.json: warning S020: option 'strips' is a specialization constant of no shader of the "
+              "probe.materialtype.json: warning M050: option 'strips' is a specialization constant of no shader of the "
               "material type; hint: the shaders have 'stripes'\n");
 }
 

@@ -130,7 +130,7 @@ struct GlbFile {
 
 /// Fails unless the outcome is the error `code`, told in one line with a text.
 template <class T>
-void expectFault(const Outcome<T>& outcome, const std::string& code) {
+void expectFault(const Result<T>& outcome, const std::string& code) {
     ASSERT_FALSE(outcome.has_value()) << "expected " << code;
     EXPECT_EQ(outcome.error().code, code) << outcome.error().text;
     EXPECT_EQ(outcome.error().severity, Severity::Error);

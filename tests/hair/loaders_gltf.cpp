@@ -11,7 +11,7 @@
 namespace pelage::hair::testing {
 namespace {
 
-Outcome<Mesh> readWith(const std::function<void(GlbFile&)>& change) {
+Result<Mesh> readWith(const std::function<void(GlbFile&)>& change) {
     GlbFile file;
     change(file);
     return parseGltf(file.bytes(), "x.glb");

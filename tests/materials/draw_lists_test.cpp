@@ -12,7 +12,7 @@ TEST(DrawLists, ThoseTheTreeLacksAreNamedWithTheNearest) {
     ASSERT_EQ(found.items().size(), 1U);
     const Diagnostic& only = found.items()[0];
     EXPECT_EQ(only.severity, Severity::Warning);
-    EXPECT_EQ(only.code, "M017");
+    EXPECT_EQ(only.code, Code("M017"));
     EXPECT_EQ(only.text, "shader 'shadow': the pass tree has no draw list 'shadow'; nothing draws it");
     EXPECT_EQ(only.hint, "did you mean 'shadows'?");
     // The place is that of the word in the file.

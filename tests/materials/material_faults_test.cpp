@@ -90,12 +90,12 @@ TEST(MaterialFaults, TheTypeMustBeThere) {
         "{\"format\": \"pelage.material/1\", \"type\": \"none.json\", \"typeVersion\": 1, \"values\": {}}";
     const auto missing = Material::parse(text, "I", shippedSource());
     ASSERT_FALSE(missing);
-    EXPECT_EQ(missing.error().items()[0].code, "V006");
+    EXPECT_EQ(missing.error().items()[0].code, Code("V006"));
     EXPECT_EQ(missing.error().items()[0].column, 41U);
-    EXPECT_EQ(missing.error().items()[1].code, "F001");
+    EXPECT_EQ(missing.error().items()[1].code, Code("F001"));
     EXPECT_FALSE(Material::parse(text, "I", {}));
     EXPECT_FALSE(Material::parse(
-        text, "I", [](const std::string&) { return Checked<std::shared_ptr<const MaterialType>>(nullptr); }));
+        text, "I", [](const std::string&) { return Result<std::shared_ptr<const MaterialType>>(nullptr); }));
     EXPECT_FALSE(Material::load("no/such.material.json", shippedSource()));
     EXPECT_FALSE(Material::parse("{\"format\": \"pelage.material/2\"}", "I", shippedSource()));
 }

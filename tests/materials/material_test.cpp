@@ -77,7 +77,7 @@ TEST(Material, RangesHoldAndNonsenseIsRefused) {
     const auto warning = material.set(roughness, Value::scalar(3));
     ASSERT_TRUE(warning);
     EXPECT_EQ(warning->severity, Severity::Warning);
-    EXPECT_EQ(warning->code, "V005");
+    EXPECT_EQ(warning->code, Code("V005"));
     EXPECT_EQ(material.get(roughness)->number[0], 1.0F);
     EXPECT_EQ(codeOf(material.set(roughness, Value::scalar(0.001F))), "V005");
     EXPECT_EQ(material.get(roughness)->number[0], 0.02F);

@@ -33,7 +33,7 @@ protected:
                                   << "\n  \"typeVersion\": " << version << ",\n  \"values\": {" << values << "} }\n";
     }
 
-    std::vector<std::string> linesOf(const Checked<Material::Parsed>& parsed) const {
+    std::vector<std::string> linesOf(const Result<Material::Parsed>& parsed) const {
         std::vector<std::string> out;
         if (parsed) return out;
         for (Diagnostic each : parsed.error().items()) {

@@ -232,7 +232,7 @@ TEST(StructureFuzz, NoEditOfAShippedMaterialThrowsOrCrashes) {
         types[std::string(name) + ".materialtype.json"] = shipped(name);
     const Material::TypeSource source = [&](const std::string& name) {
         const auto found = types.find(name);
-        return Checked<std::shared_ptr<const MaterialType>>(found == types.end() ? nullptr : found->second);
+        return Result<std::shared_ptr<const MaterialType>>(found == types.end() ? nullptr : found->second);
     };
     Counts total;
     Silent silent;

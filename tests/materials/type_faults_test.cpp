@@ -233,7 +233,7 @@ TEST(TypeFaults, EveryCodePointsAtTheMistake) {
         const Diagnostics& found = type ? (*type)->warnings() : type.error();
         ASSERT_FALSE(found.empty());
         const Diagnostic& first = found.items()[0];
-        EXPECT_EQ(first.code, row.code) << found.text();
+        EXPECT_EQ(first.code.text(), row.code) << found.text();
         EXPECT_NE(first.text.find(row.words), std::string::npos) << found.text();
         if (!row.hint.empty()) {
             EXPECT_EQ(first.hint, row.hint) << found.text();

@@ -311,15 +311,15 @@ TEST(Diagnostics, WhatTheHostDoesWrong) {
         const auto plan = (*tree)->compile(lent);
         return plan ? std::string("no error") : codes(plan.error());
     };
-    EXPECT_EQ(failing([](auto& h) { h.imports.erase("Scene"); }), "H001");
-    EXPECT_EQ(failing([](auto& h) { h.imports.erase("Lights"); }), "H001");
-    EXPECT_EQ(failing([](auto& h) { h.imports["Scene"].format = rhi::TextureFormat::RGBA8Unorm; }), "H002");
-    EXPECT_EQ(failing([](auto& h) { h.imports["Scene"].samples = 4; }), "H002");
-    EXPECT_EQ(failing([](auto& h) { h.settings["size"] = whole(300); }), "H003");
-    EXPECT_EQ(failing([](auto& h) { h.settings["size"] = flag(true); }), "H003");
-    EXPECT_EQ(failing([](auto& h) { h.settings["look"] = word("sofft"); }), "H003");
-    EXPECT_EQ(failing([](auto& h) { h.settings["siz"] = whole(256); }), "H003");
-    EXPECT_EQ(failing([](auto& h) { h.extent = {0, 48, 1}; }), "H004");
+    EXPECT_EQ(failing([](auto& h) { h.imports.erase("Scene"); }), "P080");
+    EXPECT_EQ(failing([](auto& h) { h.imports.erase("Lights"); }), "P080");
+    EXPECT_EQ(failing([](auto& h) { h.imports["Scene"].format = rhi::TextureFormat::RGBA8Unorm; }), "P081");
+    EXPECT_EQ(failing([](auto& h) { h.imports["Scene"].samples = 4; }), "P081");
+    EXPECT_EQ(failing([](auto& h) { h.settings["size"] = whole(300); }), "P082");
+    EXPECT_EQ(failing([](auto& h) { h.settings["size"] = flag(true); }), "P082");
+    EXPECT_EQ(failing([](auto& h) { h.settings["look"] = word("sofft"); }), "P082");
+    EXPECT_EQ(failing([](auto& h) { h.settings["siz"] = whole(256); }), "P082");
+    EXPECT_EQ(failing([](auto& h) { h.extent = {0, 48, 1}; }), "P083");
     EXPECT_EQ(failing([](auto& h) {
                   h.supports = [](rhi::TextureFormat f, rhi::TextureUsage, std::uint32_t) {
                       return f != rhi::TextureFormat::Depth32Float;
@@ -332,7 +332,7 @@ TEST(Diagnostics, WhatTheHostDoesWrong) {
     EXPECT_EQ(failing([](auto& h) { h.maxBytes = 100000; }), "D002");
     HostDescription lent = host();
     lent.imports["Scenery"] = {true};
-    EXPECT_EQ(codes((*tree)->compile(lent)->warnings), "H005");
+    EXPECT_EQ(codes((*tree)->compile(lent)->warnings), "P084");
 }
 
 TEST(Diagnostics, CodesOfTheTableAreCounted) {

@@ -35,7 +35,7 @@ constexpr const char* classes = R"json({
 
 class GraphClassTest : public GraphTest {
 protected:
-    using Made = rhi::Result<PassRecorder>;
+    using Made = Result<PassRecorder>;
     std::vector<std::uint32_t> layers;
     std::string grouped;
     int created = 0;
@@ -58,7 +58,7 @@ protected:
             descriptor.targets.push_back({.format = setup.targets.colors.at(0)});
             auto pipeline = setup.device.createRenderPipeline(descriptor);
             if (!pipeline) return tl::unexpected(pipeline.error());
-            return PassRecorder([this, pipeline = *pipeline](PassContext& context) -> rhi::Result<void> {
+            return PassRecorder([this, pipeline = *pipeline](PassContext& context) -> Result<void> {
                 layers.push_back(context.viewIndex);
                 EXPECT_NE(context.raster, nullptr);
                 EXPECT_EQ(context.compute, nullptr);
@@ -80,7 +80,7 @@ protected:
             auto pipeline = setup.device.createComputePipeline(
                 {.label = "invert", .compute = {.module = value(setup.shaders("invert.comp"))}});
             if (!pipeline) return tl::unexpected(pipeline.error());
-            return PassRecorder([this, pipeline = *pipeline](PassContext& context) -> rhi::Result<void> {
+            return PassRecorder([this, pipeline = *pipeline](PassContext& context) -> Result<void> {
                 const auto group = context.bindGroup(pipeline.bindGroupLayout(1));
                 if (!group) return tl::unexpected(group.error());
                 EXPECT_EQ(context.texture("source").size().depthOrArrayLayers, 2U);
@@ -97,7 +97,7 @@ protected:
     static PassClass copy() {
         PassClass made{.info = {.name = "Copy", .kind = PassKind::Copy}};
         made.create = [](const PassSetup&) -> Made {
-            return PassRecorder([](PassContext& context) -> rhi::Result<void> {
+            return PassRecorder([](PassContext& context) -> Result<void> {
                 context.copy->copyTextureToTexture({.texture = context.texture("from")},
                                                    {.texture = context.texture("to")}, context.extent);
                 return {};
@@ -150,7 +150,7 @@ TEST_F(GraphClassTest, EachKindRecordsWithItsEncoder) {
 TEST_F(GraphClassTest, WhatAClassRefusesKeepsTheOldPlan) {
     PassClassRegistry registry = all();
     PassClass broken{.info = {.name = "Broken", .kind = PassKind::Copy}};
-    broken.create = [](const PassSetup&) -> Made { return tl::unexpected(rhi::Error{.message = "no such luck"}); };
+    broken.create = [](const PassSetup&) -> Made { return tl::unexpected(Diagnostic{.text = "no such luck"}); };
     PassClass empty{.info = {.name = "Empty", .kind = PassKind::Copy}};
     empty.create = [](const PassSetup&) -> Made { return PassRecorder(); };
     ASSERT_TRUE(registry.add(broken));
@@ -162,7 +162,7 @@ TEST_F(GraphClassTest, WhatAClassRefusesKeepsTheOldPlan) {
         const auto built = build(made, edited(classes, R"("class": "Copy")", R"("class": ")" + name + "\""), host);
         ASSERT_FALSE(built) << name;
         const Diagnostic& fault = built.error().items().front();
-        EXPECT_EQ(fault.code, name == "Invrt" ? "P053" : "S004") << built.error().text();
+        EXPECT_EQ(fault.code, name == "Invrt" ? "P053" : "P072") << built.error().text();
         EXPECT_EQ(fault.line, 22U) << built.error().text();
         EXPECT_EQ(made.plansMade(), 1U);
     }
@@ -177,7 +177,7 @@ TEST_F(GraphClassTest, ARecorderThatFailsEndsTheFrame) {
     PassClass failing{.info = {.name = "Failing", .kind = PassKind::Copy}};
     failing.create = [](const PassSetup&) -> Made {
         return PassRecorder(
-            [](PassContext&) -> rhi::Result<void> { return tl::unexpected(rhi::Error{.message = "out of paint"}); });
+            [](PassContext&) -> Result<void> { return tl::unexpected(Diagnostic{.text = "out of paint"}); });
     };
     ASSERT_TRUE(registry.add(failing));
     Graph made = graphWith(std::move(registry));
@@ -185,14 +185,14 @@ TEST_F(GraphClassTest, ARecorderThatFailsEndsTheFrame) {
     auto encoder = gpu.device.createCommandEncoder("frame");
     const auto done = made.record(encoder, {}, {});
     ASSERT_FALSE(done);
-    EXPECT_EQ(done.error().message, "out of paint");
+    EXPECT_EQ(done.error().first().text, "out of paint");
 }
 
 TEST(PassClassRegistry, KnowsEachNameOnce) {
     PassClassRegistry registry;
     PassClass one{.info = {.name = "One"}};
     EXPECT_FALSE(registry.add(one)) << "without create() it can record nothing";
-    one.create = [](const PassSetup&) -> rhi::Result<PassRecorder> { return PassRecorder(); };
+    one.create = [](const PassSetup&) -> Result<PassRecorder> { return PassRecorder(); };
     EXPECT_TRUE(registry.add(one));
     EXPECT_FALSE(registry.add(one));
     one.info.name.clear();

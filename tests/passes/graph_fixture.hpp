@@ -20,15 +20,15 @@ inline std::string edited(std::string text, const std::string& from, const std::
 
 class GraphTest : public pelage::test::GpuTest {
 protected:
-    rhi::Result<rhi::ShaderModule> shader(const std::string& file) {
+    Result<rhi::ShaderModule> shader(const std::string& file) {
         const auto code = embeddedShader(file);
-        if (code.empty()) return tl::unexpected(rhi::Error{.message = "no shader '" + file + "'"});
+        if (code.empty()) return tl::unexpected(Diagnostic{.text = "no shader '" + file + "'"});
         return gpu.device.createShaderModule({.label = file, .code = {code.begin(), code.end()}});
     }
     Graph graph() {
         return Graph({.device = gpu.device, .shaders = [this](const std::string& file) { return shader(file); }});
     }
-    static Checked<void> build(Graph& graph, const std::string& text, const HostDescription& host) {
+    static Result<void> build(Graph& graph, const std::string& text, const HostDescription& host) {
         const auto tree = PassTree::parse(text, "test.pass.json");
         if (!tree) return tl::unexpected(tree.error());
         return graph.build(**tree, host);
@@ -39,7 +39,7 @@ protected:
     }
 
     // Draws the triangle with a pipeline made for the targets of the pass.
-    rhi::Result<void> drawTriangle(RasterContext& context) {
+    Result<void> drawTriangle(RasterContext& context) {
         rhi::RenderPipelineDescriptor descriptor{.label = "triangle",
                                                  .vertex = {.module = value(shader("triangle.vert"))}};
         descriptor.multisample.count = context.targets.samples;
@@ -64,7 +64,7 @@ protected:
         run(encoder);
     }
     template <class T>
-    static T value(rhi::Result<T> result) {
+    static T value(Result<T> result) {
         return pelage::test::value(std::move(result));
     }
 };

@@ -161,7 +161,7 @@ TEST_F(GraphTest, EachLayerIsARenderPassOfItsOwn) {
             views.push_back(context.viewIndex);
             EXPECT_EQ(context.extent, (rhi::Extent3D{16, 16, 1}));
             // Into the first layer only: the others stay far.
-            return context.viewIndex == 0 ? drawTriangle(context) : rhi::Result<void>{};
+            return context.viewIndex == 0 ? drawTriangle(context) : Result<void>{};
         }));
         run(encoder);
         EXPECT_EQ(views, (std::vector<std::uint32_t>{0, 1}));
@@ -210,7 +210,7 @@ TEST_F(GraphTest, ImportsAreBoundAndMayChangeEachFrame) {
     auto encoder = gpu.device.createCommandEncoder("without");
     const auto lacking = made.record(encoder, {}, {});
     ASSERT_FALSE(lacking);
-    EXPECT_NE(lacking.error().message.find("H001"), std::string::npos);
+    EXPECT_NE(lacking.error().first().text.find("P080"), std::string::npos);
 }
 
 TEST_F(GraphTest, AFailedBuildKeepsTheOldPicture) {
@@ -219,8 +219,8 @@ TEST_F(GraphTest, AFailedBuildKeepsTheOldPicture) {
     mustBuild(made, triangleTree, host);
     const std::pair<std::string, std::string> faults[] = {
         {edited(triangleTree, "\"Tint.color\"", "\"Tnt.color\""), "P016"},
-        {edited(triangleTree, "tint.frag", "tin.frag"), "S001"},
-        {edited(triangleTree, "\"gain\": { \"setting\": \"gain\" }", "\"gian\": { \"setting\": \"gain\" }"), "S020"},
+        {edited(triangleTree, "tint.frag", "tin.frag"), "P070"},
+        {edited(triangleTree, "\"gain\": { \"setting\": \"gain\" }", "\"gian\": { \"setting\": \"gain\" }"), "P077"},
         // The second slot of that bind is the one in Tint.
         {edited(triangleTree,
                 "\"kind\": \"fullscreen\", \"shader\": \"tint.frag\",\n      \"slots\": {\n        \"source\": { "
@@ -228,8 +228,8 @@ TEST_F(GraphTest, AFailedBuildKeepsTheOldPicture) {
                 "\"kind\": \"fullscreen\", \"shader\": \"tint.frag\",\n      \"slots\": {\n        \"source\": { "
                 "\"access\": \"read\", \"as\": \"sampled\", \"bind\": \"u_sauce\""),
          "S010 S011"},
-        {edited(triangleTree, "\"shader\": \"tint.frag\"", "\"shader\": \"average.frag\""), "S012"},
-        {edited(triangleTree, "\"shader\": \"tint.frag\"", "\"shader\": \"two_targets.frag\""), "S013"},
+        {edited(triangleTree, "\"shader\": \"tint.frag\"", "\"shader\": \"average.frag\""), "P075"},
+        {edited(triangleTree, "\"shader\": \"tint.frag\"", "\"shader\": \"two_targets.frag\""), "P076"},
         {edited(triangleTree, "\"Drawn\": { \"format\": \"RGBA8Unorm\", \"size\": { \"frame\": 1 }",
                 "\"Drawn\": { \"format\": \"RGBA8Unorm\", \"size\": { \"square\": 32768 }"),
          "D002"},
@@ -266,7 +266,7 @@ TEST_F(GraphTest, RasterPassesGetTheirBindGroups) {
     mustBuild(made, cleared, {.extent = {4, 4, 1}});
     std::string missing;
     auto encoder = gpu.device.createCommandEncoder("frame");
-    pelage::test::succeed(made.record(encoder, {}, [&](RasterContext& context) -> rhi::Result<void> {
+    pelage::test::succeed(made.record(encoder, {}, [&](RasterContext& context) -> Result<void> {
         if (context.pass.name != "Light") return drawTriangle(context);
         rhi::RenderPipelineDescriptor descriptor{.label = "light",
                                                  .vertex = {.module = value(shader("fullscreen.vert"))}};
@@ -283,12 +283,12 @@ TEST_F(GraphTest, RasterPassesGetTheirBindGroups) {
         descriptor.fragment->module = value(shader("tint.frag"));
         const auto other = value(gpu.device.createRenderPipeline(descriptor));
         const auto refused = context.bindGroup(other.bindGroupLayout(1));
-        if (!refused) missing = refused.error().message;
+        if (!refused) missing = refused.error().first().text;
         return {};
     }));
     run(encoder);
     EXPECT_EQ(read<Pixel>(made.exported("Lit"))[0], (Pixel{255, 0, 0, 255}));
-    EXPECT_NE(missing.find("S011"), std::string::npos) << missing;
+    EXPECT_NE(missing.find("P074"), std::string::npos) << missing;
     EXPECT_NE(missing.find("u_source"), std::string::npos) << missing;
 }
 

@@ -37,7 +37,7 @@ Texts inThree() {
             {"frames/parts/declared.pass.json", part({"settings", "imports", "views", "attachments"}, "")}};
 }
 
-Checked<std::shared_ptr<const PassTree>> parse(const Texts& texts, const std::string& main = "frames/main.pass.json") {
+Result<std::shared_ptr<const PassTree>> parse(const Texts& texts, const std::string& main = "frames/main.pass.json") {
     return PassTree::parse(texts.at(main), main, reader(texts));
 }
 
@@ -81,7 +81,7 @@ TEST(Include, MessagesNameTheFileLineAndColumn) {
               "P016");
     EXPECT_EQ(
         fault("frames/parts/declared.pass.json", "\"RGBA16Float\"", "\"RGBA8Unorm\"", "\"Scene\": {").substr(0, 4),
-        "H002");
+        "P081");
     EXPECT_EQ(fault("frames/parts/kit.pass.json", "lights > 0", "light > 0", "light > 0").substr(0, 4), "E002");
     EXPECT_EQ(fault("frames/main.pass.json", "\"Keep.to\"", "\"Kep.to\"", "\"Kep.to\"").substr(0, 4), "P016");
     // A place in a hint that is in another file says which.

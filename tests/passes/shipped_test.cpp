@@ -82,7 +82,7 @@ TEST(ShippedFrame, SettingsChangeThePlan) {
     const PlanSlot* map = slot(unshadowed.plan, "ForwardHair", "shadowMap");
     EXPECT_EQ(unshadowed.plan.resources[map->resource].name, "const.depthFarArray");
     host.settings = {{"shadowLights", whole(9)}};
-    EXPECT_EQ(run(shipped(), host).codes, "H003");
+    EXPECT_EQ(run(shipped(), host).codes, "P082");
 }
 
 // Deleting a pass from the file gives another picture or one clear error, as passes/README.md promises.
@@ -181,7 +181,7 @@ TEST(ShippedFrame, AnExportNobodyWantsCostsNothing) {
     EXPECT_EQ(linear.codes, "") << linear.text;
     EXPECT_EQ(linear.plan.culled, Names{"Display: no export needs its result"});
     host.unwantedExports = {"Dept"};
-    EXPECT_EQ(run(shipped(), host).codes, "H005");
+    EXPECT_EQ(run(shipped(), host).codes, "P084");
 }
 
 // Editors show these sentences, and the documentation of the grammar is made of them.

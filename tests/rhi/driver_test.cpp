@@ -126,7 +126,7 @@ TEST(Limits, EveryOneThatFallsShortIsNamed) {
     const auto device = adapter.requestDevice({.requiredLimits = wanted});
     ASSERT_FALSE(device);
     for (const char* word : {"maxBindGroups 99 (it has 8)", "maxBufferSize", "minUniformBufferOffsetAlignment 1"})
-        EXPECT_NE(device.error().message.find(word), std::string::npos) << device.error().message;
+        EXPECT_NE(device.error().first().text.find(word), std::string::npos) << device.error().first().text;
 }
 
 TEST(MapAsync, TellsWhenTheWorkThatUsesTheBufferIsDone) {
@@ -161,7 +161,7 @@ TEST(Toggles, AnUnknownNameListsTheKnown) {
     const auto device = NullDevice::get(instance.requestAdapter()).requestDevice({.toggles = {{"noSuchThing"}}});
     ASSERT_FALSE(device);
     EXPECT_EQ(device.error().code, ErrorCode::UnknownToggle);
-    EXPECT_NE(device.error().message.find("resolveToFirstLayerOnly"), std::string::npos) << device.error().message;
+    EXPECT_NE(device.error().first().text.find("resolveToFirstLayerOnly"), std::string::npos) << device.error().first().text;
 }
 
 }  // namespace

@@ -99,7 +99,7 @@ TEST(Reflection, GarbageIsAnErrorAndNeverACrash) {
     const auto combined = embeddedShader("combined.frag");
     const auto r = detail::reflect({combined.begin(), combined.end()}, "[ShaderModule \"old\"]");
     ASSERT_FALSE(r);
-    EXPECT_NE(r.error().message.find("combined sampler \"image\""), std::string::npos) << r.error().message;
+    EXPECT_NE(r.error().first().text.find("combined sampler \"image\""), std::string::npos) << r.error().first().text;
 }
 
 }  // namespace

@@ -56,16 +56,16 @@ class Display : public ::testing::Test {
 protected:
     void SetUp() override {
         auto instance = rhi::Instance::create();
-        ASSERT_TRUE(instance) << rhi::toString(instance.error());
+        ASSERT_TRUE(instance) << instance.error().text();
         auto adapter = instance->requestAdapter();
-        ASSERT_TRUE(adapter) << rhi::toString(adapter.error());
+        ASSERT_TRUE(adapter) << adapter.error().text();
         auto device = adapter->requestDevice();
-        ASSERT_TRUE(device) << rhi::toString(device.error());
+        ASSERT_TRUE(device) << device.error().text();
         instance_ = *instance;
         device_ = *device;
     }
 
-    rhi::Result<std::vector<Color>> onGpu(bool plain) const {
+    Result<std::vector<Color>> onGpu(bool plain) const {
         std::vector<Color> all = colors();
         const std::uint64_t size = all.size() * sizeof(Color);
         using rhi::BufferUsage;
@@ -114,7 +114,7 @@ protected:
     void expectAgreement(const char* view, bool plain) const {
         const auto expected = onCpu(view);
         const auto found = onGpu(plain);
-        ASSERT_TRUE(found) << rhi::toString(found.error());
+        ASSERT_TRUE(found) << found.error().text();
         for (std::size_t i = 0; i < expected.size(); ++i) {
             for (std::size_t c = 0; c < 3; ++c) {
                 const float want = std::clamp(expected[i][c], 0.0F, 1.0F);

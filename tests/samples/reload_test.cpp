@@ -99,7 +99,7 @@ protected:
         EXPECT_EQ(live_->poll().change, LiveStage::Change::None);
     }
 
-    app::Outcome<app::Gpu> gpu_ = app::Gpu();
+    Result<app::Gpu> gpu_ = app::Gpu();
     std::optional<LiveStage> live_ = {};
     std::vector<std::uint8_t> last_ = {};
 };

@@ -53,20 +53,20 @@ private:
                                            .validation = validation == nullptr || std::strcmp(validation, "0") != 0,
                                            .onMessage = [this](const rhi::Message& m) { messages.add(m); }});
         if (!made) {
-            failure = rhi::toString(made.error());
+            failure = made.error().text();
             return;
         }
         instance = *made;
         const char* name = std::getenv("PELAGE_TEST_ADAPTER");
         auto chosen = instance.requestAdapter({.nameContains = name != nullptr ? name : ""});
         if (!chosen) {
-            failure = rhi::toString(chosen.error());
+            failure = chosen.error().text();
             return;
         }
         adapter = *chosen;
         auto opened = adapter.requestDevice({.label = "tests", .optionalFeatures = adapter.info().features});
         if (!opened)
-            failure = rhi::toString(opened.error());
+            failure = opened.error().text();
         else
             device = *opened;
     }
@@ -90,13 +90,13 @@ public:
 
 /// The value, or a failure of the test with the error's text.
 template <class T>
-T value(rhi::Result<T> result) {
+T value(Result<T> result) {
     if (result) return std::move(*result);
-    ADD_FAILURE() << rhi::toString(result.error());
+    ADD_FAILURE() << result.error().text();
     return {};
 }
-inline void succeed(const rhi::Result<void>& result) {
-    if (!result) ADD_FAILURE() << rhi::toString(result.error());
+inline void succeed(const Result<void>& result) {
+    if (!result) ADD_FAILURE() << result.error().text();
 }
 
 class GpuTest : public ::testing::Test {
@@ -122,12 +122,12 @@ protected:
     rhi::CommandBuffer run(rhi::CommandEncoder& encoder) {
         auto commands = encoder.finish();
         if (!commands) {
-            ADD_FAILURE() << rhi::toString(commands.error());
+            ADD_FAILURE() << commands.error().text();
             return {};
         }
         auto sent = gpu.device.queue().submit(*commands);
         if (!sent)
-            ADD_FAILURE() << rhi::toString(sent.error());
+            ADD_FAILURE() << sent.error().text();
         else
             EXPECT_TRUE(value(gpu.device.queue().wait(*sent)));
         return *commands;

@@ -35,7 +35,7 @@ class Condition {
 public:
     /// A fault (E001 syntax or size, E002 unknown name, E003 unknown word, E004 kinds that do not fit) has in `column`
     /// the 1-based byte of the text; file and line are the caller's to fill. At most 1024 bytes, 32 levels deep.
-    static Outcome<Condition> parse(std::string_view text, const ConditionNames& names);
+    static Result<Condition> parse(std::string_view text, const ConditionNames& names);
 
     /// `value` gives a name's value by its index in `names` (a bool as 0 or 1, a word as its index), and, counted on
     /// from there, 0 or 1 for each word of the function. A condition that was never parsed is true.

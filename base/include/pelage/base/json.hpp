@@ -55,16 +55,16 @@ struct Document {
 
 /// Reads a text. `file` is the name used in diagnostics. Never throws; one error (the first) per text, codes
 /// J001..J009.
-Checked<Document> parse(std::string_view text, std::string_view file);
+Result<Document> parse(std::string_view text, std::string_view file);
 
 /// Reads a file of at most 4 MiB (codes F001 cannot open, F002 too large, then as parse()).
-Checked<Document> parseFile(const std::string& path);
+Result<Document> parseFile(const std::string& path);
 
 /// A schema in the subset of JSON Schema 2020-12 that the shipped schemas use, with "x-code" to name the diagnostic.
 class Schema {
 public:
     /// Reads a schema. A schema that uses a keyword outside the subset is refused.
-    static Checked<Schema> parse(std::string_view text, std::string_view file);
+    static Result<Schema> parse(std::string_view text, std::string_view file);
     /// Everything in `document` that breaks the schema: wrong kinds, unknown and missing keys, words outside an enum,
     /// numbers outside a range, with places and the nearest known name (codes J010..J019).
     Diagnostics validate(const Document& document) const;

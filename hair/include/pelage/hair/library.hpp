@@ -18,15 +18,15 @@ public:
     Library(std::string dataDirectory, materials::FunctorRegistry functors);
 
     /// "hair.materialtype.json", or a path. Types are read once.
-    Checked<std::shared_ptr<const materials::MaterialType>> materialType(const std::string& name);
+    Result<std::shared_ptr<const materials::MaterialType>> materialType(const std::string& name);
     /// A preset's name ("brown"), or a path to a *.material.json; a type beside the file is found first. Parents are
     /// looked for beside the file that names them, then among the presets.
-    Checked<materials::Material::Parsed> material(const std::string& nameOrPath);
+    Result<materials::Material::Parsed> material(const std::string& nameOrPath);
     /// How material() finds types and parents, for others that read material files. Valid while the library is.
     materials::Material::TypeSource typesFor(const std::string& materialFile);
     materials::Material::ParentSource parentSource() const;
     /// "hair_frame" or a path to a *.pass.json.
-    Checked<std::shared_ptr<const passes::PassTree>> passTree(const std::string& nameOrPath);
+    Result<std::shared_ptr<const passes::PassTree>> passTree(const std::string& nameOrPath);
     std::vector<std::string> presetNames() const;
     const std::string& dataDirectory() const { return directory_; }
 

@@ -105,19 +105,19 @@ public:
         /// Called with a pipeline's key before it is made, on the thread that makes it: for progress and for tests.
         std::function<void(std::uint64_t key)> beforePipeline = {};
     };
-    static Outcome<Renderer> create(Descriptor descriptor);
+    static Result<Renderer> create(Descriptor descriptor);
 
     /// Swaps the pass tree; on an error the old one stays.
-    Outcome<void> setTree(std::shared_ptr<const passes::PassTree> tree);
+    Result<void> setTree(std::shared_ptr<const passes::PassTree> tree);
 
     /// Records the frame; the display picture is then in displayTexture(), the linear one in colorTexture().
     /// `scene` is not const: materials are compiled when their values changed.
-    Outcome<void> encode(Scene& scene, const FrameSettings& settings, rhi::CommandEncoder& encoder);
+    Result<void> encode(Scene& scene, const FrameSettings& settings, rhi::CommandEncoder& encoder);
     rhi::Texture displayTexture() const;  // empty when the tree exports no "LdrColor"
     rhi::Texture colorTexture() const;    // "HdrColor"
 
     /// encode(), submit, wait and read back.
-    Outcome<Picture> render(Scene& scene, const FrameSettings& settings);
+    Result<Picture> render(Scene& scene, const FrameSettings& settings);
     /// Until no pipeline is pending; the next frame draws with all of them. At once in synchronous mode.
     void waitForPipelines();
     /// Of the last frame, once its work is done.
@@ -136,6 +136,6 @@ private:
 };
 
 /// One line for people from an rhi error.
-Diagnostic toDiagnostic(const rhi::Error& error);
+Diagnostic toDiagnostic(const Diagnostic& error);
 
 }  // namespace pelage::hair

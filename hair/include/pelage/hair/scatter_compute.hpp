@@ -21,7 +21,7 @@ public:
     explicit ScatterCompute(rhi::Device device) : device_(std::move(device)) {}
 
     /// One result for each row, in their order; waits for the device. Tables are made for the rows that need them.
-    Outcome<std::vector<ScatteredLobes>> evaluate(ScatteringModel model, bool published,
+    Result<std::vector<ScatteredLobes>> evaluate(ScatteringModel model, bool published,
                                                   std::span<const ScatterRow> rows);
 
 private:

@@ -16,10 +16,10 @@ struct SceneFile {
     Diagnostics notes = {};
 };
 
-Checked<SceneFile> loadScene(const std::string& path, Library& library);
+Result<SceneFile> loadScene(const std::string& path, Library& library);
 
 /// A scene around one asset (.glb, .gltf, .tfx, .hair): framed camera, portrait lights, the studio environment, the
 /// given material or a sensible one ("brown").
-Checked<SceneFile> sceneFromAsset(const std::string& path, const std::string& material, float aspect, Library& library);
+Result<SceneFile> sceneFromAsset(const std::string& path, const std::string& material, float aspect, Library& library);
 
 }  // namespace pelage::hair

@@ -26,7 +26,7 @@ inline std::string joinedWords(const std::vector<std::string>& words) {
     return text;
 }
 
-inline Outcome<passes::SettingValue> parseUint(const passes::SettingInfo& info, const std::string& text) {
+inline Result<passes::SettingValue> parseUint(const passes::SettingInfo& info, const std::string& text) {
     std::uint32_t number = 0;
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
     const bool whole = error == std::errc() && end == text.data() + text.size();
@@ -41,7 +41,7 @@ inline Outcome<passes::SettingValue> parseUint(const passes::SettingInfo& info, 
 }  // namespace detail
 
 /// "true", "1024" or a word, judged by what the tree says of the setting (codes S010 unknown name, S011 wrong value).
-inline Outcome<passes::SettingValue> parseSetting(const passes::PassTree& tree, const std::string& name,
+inline Result<passes::SettingValue> parseSetting(const passes::PassTree& tree, const std::string& name,
                                                   const std::string& text) {
     const auto& all = tree.settings();
     const auto info = std::find_if(all.begin(), all.end(), [&](const auto& each) { return each.name == name; });

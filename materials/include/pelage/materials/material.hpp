@@ -55,9 +55,9 @@ struct Conversion;  // src/convert.hpp
 class MaterialType {
 public:
     /// Reads and links a type. `registry` must outlive nothing: what is needed is copied.
-    static Checked<std::shared_ptr<const MaterialType>> parse(std::string_view text, const std::string& file,
+    static Result<std::shared_ptr<const MaterialType>> parse(std::string_view text, const std::string& file,
                                                               const FunctorRegistry& registry);
-    static Checked<std::shared_ptr<const MaterialType>> load(const std::string& path, const FunctorRegistry& registry);
+    static Result<std::shared_ptr<const MaterialType>> load(const std::string& path, const FunctorRegistry& registry);
 
     const std::string& name() const;
     const std::string& file() const;
@@ -107,16 +107,16 @@ public:
     explicit Material(std::shared_ptr<const MaterialType> type);
 
     /// Finds material types by the name a material file gives, for example "hair.materialtype.json".
-    using TypeSource = std::function<Checked<std::shared_ptr<const MaterialType>>(const std::string& name)>;
+    using TypeSource = std::function<Result<std::shared_ptr<const MaterialType>>(const std::string& name)>;
     /// The path of a parent, from the name in "parent" and the path of the file that says so. Without one, parents are
     /// looked for beside that file.
     using ParentSource = std::function<std::string(const std::string& name, const std::string& file)>;
     struct Parsed;
     /// Reads a material and its parents: the values of the nearest file win. A parent that is missing, of another type,
     /// or its own ancestor is V012, at each place concerned.
-    static Checked<Parsed> parse(std::string_view text, const std::string& file, const TypeSource& types,
+    static Result<Parsed> parse(std::string_view text, const std::string& file, const TypeSource& types,
                                  const ParentSource& parents = {});
-    static Checked<Parsed> load(const std::string& path, const TypeSource& types, const ParentSource& parents = {});
+    static Result<Parsed> load(const std::string& path, const TypeSource& types, const ParentSource& parents = {});
     /// The files it was read from: its own, its parent, the parent's parent. Empty for a material made by a program.
     const std::vector<std::string>& files() const { return files_; }
 

@@ -23,12 +23,12 @@ struct RasterContext {
     /// The bind group of set 1 for a pipeline's layout of that set: slots matched by shader resource name, samplers by
     /// their names ("s_linear", "s_nearest", "s_shadow", "s_linearRepeat"). Cached. An error names what no slot
     /// provides.
-    std::function<rhi::Result<rhi::BindGroup>(const rhi::BindGroupLayout&)> bindGroup;
+    std::function<Result<rhi::BindGroup>(const rhi::BindGroupLayout&)> bindGroup;
     /// The buffer of a slot (vertex, indirect, storage); empty when it is not connected or is no buffer.
     std::function<rhi::Buffer(std::string_view slot)> buffer;
     std::uint32_t draws = 0;  // the host adds what it draws; for PassReport
 };
-using DrawCallback = std::function<rhi::Result<void>(RasterContext&)>;
+using DrawCallback = std::function<Result<void>(RasterContext&)>;
 
 struct FrameImports {
     std::map<std::string, rhi::Texture> textures = {};
@@ -62,7 +62,7 @@ public:
     /// convention), the plan stays and the call costs less than 5 us: a host may call it each frame. The callbacks in
     /// `host` are taken to answer as they did. What an attachment with a history remembers survives a new plan in which
     /// it has the same shape.
-    Checked<void> build(const PassTree& tree, const HostDescription& host);
+    Result<void> build(const PassTree& tree, const HostDescription& host);
     /// The next build() plans anew although nothing it can see has changed: shaders were compiled again, say.
     void invalidate() { stale_ = true; }
     const Plan& plan() const;
@@ -73,7 +73,7 @@ public:
     /// Records every pass of the plan. `draws` is called once per raster pass (and layer). An import that is not as the
     /// plan expects (absent H001; format, size, layers or samples H002) is an error before anything is recorded: build
     /// again with what is lent now.
-    rhi::Result<void> record(rhi::CommandEncoder& encoder, const FrameImports& imports, const DrawCallback& draws);
+    Result<void> record(rhi::CommandEncoder& encoder, const FrameImports& imports, const DrawCallback& draws);
     /// The texture behind an export; valid after record(), with its contents until the next one. An export of a buffer
     /// is in exportedBuffer().
     rhi::Texture exported(const std::string& name) const;

@@ -16,16 +16,16 @@
 //                           .parameters = {{.name = "width", .min = 1, .max = 8, .defaultNumber = 1},
 //                                          {.name = "style", .type = passes::ParameterInfo::Type::Word,
 //                                           .words = {"hard", "soft"}}}},
-//                  .create = [](const passes::PassSetup& setup) -> rhi::Result<passes::PassRecorder> {
+//                  .create = [](const passes::PassSetup& setup) -> Result<passes::PassRecorder> {
 //                      auto pipeline = setup.device.createRenderPipeline(… setup.targets …);
 //                      if (!pipeline) return tl::unexpected(pipeline.error());
 //                      return passes::PassRecorder([pipeline = *pipeline](passes::PassContext& context) {
 //                          auto group = context.bindGroup(pipeline.bindGroupLayout(1));
-//                          if (!group) return rhi::Result<void>(tl::unexpected(group.error()));
+//                          if (!group) return Result<void>(tl::unexpected(group.error()));
 //                          context.raster->setPipeline(pipeline);
 //                          context.raster->setBindGroup(1, *group);
 //                          context.raster->draw(3);
-//                          return rhi::Result<void>();
+//                          return Result<void>();
 //                      });
 //                  }});
 //
@@ -44,7 +44,7 @@
 namespace pelage::passes {
 
 /// The shader module of a file named in a tree ("resolve.frag"), or an error.
-using ShaderSource = std::function<rhi::Result<rhi::ShaderModule>(const std::string& file)>;
+using ShaderSource = std::function<Result<rhi::ShaderModule>(const std::string& file)>;
 
 /// What a pass draws into.
 struct Targets {
@@ -93,7 +93,7 @@ struct PassContext {
     rhi::CommandEncoder* copy = nullptr;
     /// The bind group of set 1 for a pipeline's layout of that set: slots by their "bind", samplers by their names
     /// (s_linear, s_nearest, s_linearRepeat, s_shadow). Cached. An error names what no slot provides.
-    std::function<rhi::Result<rhi::BindGroup>(const rhi::BindGroupLayout&)> bindGroup = {};
+    std::function<Result<rhi::BindGroup>(const rhi::BindGroupLayout&)> bindGroup = {};
     /// The image or buffer of a slot; an empty handle when the slot is not connected or is of the other kind.
     std::function<rhi::Texture(std::string_view slot)> texture = {};
     std::function<rhi::Buffer(std::string_view slot)> buffer = {};
@@ -101,13 +101,13 @@ struct PassContext {
 };
 
 /// Records one pass. An error ends the frame: Graph::record gives it back.
-using PassRecorder = std::function<rhi::Result<void>(PassContext&)>;
+using PassRecorder = std::function<Result<void>(PassContext&)>;
 
 struct PassClass {
     PassClassInfo info = {};
     /// Called by Graph::build once for each pass of the class: the place to make pipelines. The recorder lives as long
     /// as the plan.
-    std::function<rhi::Result<PassRecorder>(const PassSetup&)> create = {};
+    std::function<Result<PassRecorder>(const PassSetup&)> create = {};
 };
 
 /// A value: copied into a graph, and no two graphs share one.

@@ -119,10 +119,10 @@ class PassTree {
 public:
     /// Reads a tree from memory; `file` is its name in messages. What "include" names is looked up in the folder of the
     /// file that says so: by `reader`; without one nothing can be included.
-    static Checked<std::shared_ptr<const PassTree>> parse(std::string_view text, const std::string& file,
+    static Result<std::shared_ptr<const PassTree>> parse(std::string_view text, const std::string& file,
                                                           const TextReader& reader = {});
     /// Reads a file and what it includes: files beside it, else those at `elsewhere(name)`.
-    static Checked<std::shared_ptr<const PassTree>> load(const std::string& path, const IncludePath& elsewhere = {});
+    static Result<std::shared_ptr<const PassTree>> load(const std::string& path, const IncludePath& elsewhere = {});
 
     const std::string& name() const;
     const std::string& file() const;
@@ -136,7 +136,7 @@ public:
     const Diagnostics& warnings() const;
 
     /// Links and schedules. All faults at once; warnings come with the plan.
-    Checked<Plan> compile(const HostDescription& host) const;
+    Result<Plan> compile(const HostDescription& host) const;
 
     struct Description;  // src/description.hpp: what the file says, typed
     const Description& description() const { return *description_; }
