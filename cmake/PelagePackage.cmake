@@ -44,6 +44,7 @@ pelage_install_library(rhi HEADERS rhi)
 pelage_install_library(passes HEADERS passes)
 pelage_install_library(materials HEADERS materials)
 pelage_install_library(hair_geometry)
+pelage_install_library(hair_formats)
 pelage_install_library(hair_scattering)
 pelage_install_library(hair HEADERS hair)
 
@@ -57,7 +58,7 @@ pelage_install_pkgconfig(rhi DESCRIPTION "Devices in WebGPU's shape over Vulkan 
 pelage_install_pkgconfig(passes DESCRIPTION "Pass trees: a frame as data" LIBS passes REQUIRES pelage-rhi pelage-base)
 pelage_install_pkgconfig(materials DESCRIPTION "Material types, materials, functors" LIBS materials
   REQUIRES pelage-rhi pelage-base)
-pelage_install_pkgconfig(hair DESCRIPTION "Hair: geometry, shading, renderer" LIBS hair hair_geometry hair_scattering
+pelage_install_pkgconfig(hair DESCRIPTION "Hair: geometry, shading, renderer" LIBS hair hair_formats hair_geometry hair_scattering
   REQUIRES pelage-materials pelage-passes pelage-rhi pelage-base glm REQUIRES_PRIVATE tinygltf LIBS_PRIVATE -pthread)
 
 if(TARGET pelage_reference)

@@ -14,6 +14,16 @@ namespace {
 using reading::fault;
 using reading::remark;
 
+struct Format {
+    std::string_view ending;
+    reading::Reader& read;
+};
+const Format kFormats[] = {
+#define PELAGE_READER(ending, function) {ending, reading::function},
+#include "readers.def"
+#undef PELAGE_READER
+};
+
 // A groom in metres spans between 3 cm (an eyebrow) and 4 m (a horse with its tail). One that does not was made in
 // other units; the first of these factors that brings it into the usual range is taken.
 constexpr float kLeastSpan = 0.03F, kGreatestSpan = 4.0F;
@@ -34,55 +44,35 @@ std::string lowerEnding(const std::string& path) {
     return ending;
 }
 
-struct Bounds {
-    glm::vec3 low = glm::vec3(0), high = glm::vec3(0);
-    float span() const { return glm::length(high - low); }
-};
-
-Bounds boundsOf(const Groom& groom) {
-    Bounds b;
-    if (!groom.points.empty()) b.low = b.high = groom.points.front();
-    for (const glm::vec3& p : groom.points) {
-        b.low = glm::min(b.low, p);
-        b.high = glm::max(b.high, p);
-    }
-    return b;
-}
-
-void scaleToMetres(Groom& groom, const std::string& path, Diagnostics& notes) {
-    const float span = boundsOf(groom).span();
+void scaleToMetres(Strands& groom, const std::string& path, Diagnostics& notes) {
+    const float span = glm::length(groom.boundsMax - groom.boundsMin);
     if (span >= kLeastSpan && span <= kGreatestSpan) return;
     const auto found = std::find_if(kFactors.begin(), kFactors.end(),
                                     [&](float f) { return span * f >= 0.1F && span * f <= kGreatestSpan; });
     const float factor = found != kFactors.end() ? *found : 0.6F / span;
     for (glm::vec3& p : groom.points) p *= factor;
     for (float& w : groom.widths) w *= factor;
-    groom.defaultWidth *= factor;
+    groom.width *= factor;
+    groom.boundsMin *= factor;
+    groom.boundsMax *= factor;
     notes.add(remark(Severity::Note, "A101", path,
                      "the groom spans " + number(span) + " units, which is no head of hair in metres; scaled by " +
                          number(factor) + " to " + number(span * factor) + " m",
                      "export the groom in metres to be sure"));
 }
 
-void repairWidths(Groom& groom, const std::string& path, Diagnostics& notes) {
+void repairWidths(Strands& groom, const std::string& path, Diagnostics& notes) {
     const auto plausible = [](float w) { return w >= kLeastWidth && w <= kGreatestWidth; };
-    const Groom standard;
+    const Strands standard;
     const bool all = std::all_of(groom.widths.begin(), groom.widths.end(), plausible);
-    if (plausible(groom.defaultWidth) && all) return;
-    const float found = all ? groom.defaultWidth : *std::max_element(groom.widths.begin(), groom.widths.end());
+    if (plausible(groom.width) && all) return;
+    const float found = all ? groom.width : *std::max_element(groom.widths.begin(), groom.widths.end());
     if (!all) groom.widths.clear();
-    groom.defaultWidth = plausible(groom.defaultWidth) ? groom.defaultWidth : standard.defaultWidth;
+    groom.width = plausible(groom.width) ? groom.width : standard.width;
     notes.add(remark(Severity::Note, "A102", path,
                      "the groom gives strands a width of " + number(found) + " m, expected " + number(kLeastWidth) +
-                         " to " + number(kGreatestWidth) + " m; " + number(groom.defaultWidth) + " m is used instead",
+                         " to " + number(kGreatestWidth) + " m; " + number(groom.width) + " m is used instead",
                      "set the thickness in metres"));
-}
-
-Result<LoadedAsset> finishGroom(Result<Groom> groom, const std::string& path, Diagnostics notes) {
-    if (!groom) return tl::unexpected(std::move(groom.error()));
-    scaleToMetres(*groom, path, notes);
-    repairWidths(*groom, path, notes);
-    return LoadedAsset{std::move(*groom), std::move(notes)};
 }
 
 std::string boundsText(const glm::vec3& low, const glm::vec3& high) {
@@ -105,57 +95,75 @@ std::string imageText(const char* label, const Image8& image) {
            std::to_string(image.channels) + " channels\n";
 }
 
-std::string describeGroom(const Groom& groom) {
+std::string describeStrands(const Strands& strands) {
     std::vector<double> lengths;
-    for (std::uint32_t s = 0; s < groom.strandCount(); ++s) {
+    for (std::uint32_t s = 0; s < strands.strandCount(); ++s) {
+        const auto points = strands.strand(s);
         double length = 0;
-        for (std::size_t i = groom.firstPoint[s] + std::size_t{1}; i < groom.firstPoint[s + 1]; ++i) {
-            length += glm::length(groom.points[i] - groom.points[i - 1]);
-        }
+        for (std::size_t i = 1; i < points.size(); ++i) length += glm::length(points[i] - points[i - 1]);
         lengths.push_back(length);
     }
-    const Bounds b = boundsOf(groom);
-    return "strands   " + std::to_string(groom.strandCount()) + "\npoints    " + std::to_string(groom.points.size()) +
-           "\n" + boundsText(b.low, b.high) + lengthsText(lengths) + "widths    " +
-           (groom.widths.empty() ? number(groom.defaultWidth * 1e6) + " um everywhere\n" : "per point\n");
+    return "strands   " + std::to_string(strands.strandCount()) + "\npoints    " +
+           std::to_string(strands.points.size()) + "\n" + boundsText(strands.boundsMin, strands.boundsMax) +
+           lengthsText(lengths) + "widths    " +
+           (strands.widths.empty() ? number(strands.width * 1e6) + " um everywhere\n" : "per point\n");
 }
 
-std::string describeCards(const Geometry& g) {
+std::string describeCards(const Mesh& g) {
     return "triangles " + std::to_string(g.indices.size() / 3) + "\nvertices  " + std::to_string(g.vertices.size()) +
-           "\nislands   " + std::to_string(g.strandCount) + "\n" + boundsText(g.boundsMin, g.boundsMax) +
+           "\nislands   " + std::to_string(g.islandCount) + "\n" + boundsText(g.boundsMin, g.boundsMax) +
            imageText("colour    ", g.colorMap) + imageText("strand ID ", g.strandIdMap) + "direction from texture v\n";
 }
 
 }  // namespace
 
+std::string assetEndings() {
+    std::string text;
+    for (std::size_t i = 0; i < std::size(kFormats); ++i) {
+        if (i > 0) text += i + 1 < std::size(kFormats) ? ", " : " or ";
+        text += kFormats[i].ending;
+    }
+    return text;
+}
+
 Result<LoadedAsset> loadAsset(const std::string& path) {
     const std::string ending = lowerEnding(path);
-    const bool known = ending == ".glb" || ending == ".gltf" || ending == ".tfx" || ending == ".hair";
-    if (!known) {
+    const auto* const format = std::find_if(std::begin(kFormats), std::end(kFormats),
+                                            [&](const Format& each) { return each.ending == ending; });
+    if (format == std::end(kFormats)) {
         return fault("A100", path,
-                                    "the ending \"" + ending + "\" is not known, expected .glb, .gltf, .tfx or .hair",
+                                    "the ending \"" + ending + "\" is not known, expected " + assetEndings(),
                                     "convert the asset, or correct its ending");
     }
-    const auto bytes = readFile(path);
-    if (!bytes) return tl::unexpected(bytes.error());
+    auto source = reading::Source::open(path);
+    if (!source) return tl::unexpected(source.error());
+    LoadedAsset loaded;
+    auto read = format->read(*source, path, loaded.notes);
+    if (!read) return tl::unexpected(std::move(read.error()));
+    loaded.asset = std::move(*read);
+    if (auto* strands = std::get_if<Strands>(&loaded.asset)) {
+        scaleToMetres(*strands, path, loaded.notes);
+        repairWidths(*strands, path, loaded.notes);
+        strands->center = middleOfRoots(*strands);
+    }
+    return loaded;
+}
+
+Result<Strands> reading::strandsOnly(Reader& reader, Source source, const std::string& name) {
     Diagnostics notes;
-    if (ending == ".tfx") {
-        auto groom = reading::readTfx(*bytes, path, notes);
-        return finishGroom(std::move(groom), path, std::move(notes));
-    }
-    if (ending == ".hair") {
-        auto groom = reading::readHair(*bytes, path, notes);
-        return finishGroom(std::move(groom), path, std::move(notes));
-    }
-    auto cards = reading::readGltf(*bytes, path, reading::folderOf(path), notes);
-    if (!cards) return tl::unexpected(std::move(cards.error()));
-    return LoadedAsset{std::move(*cards), std::move(notes)};
+    auto asset = reader(source, name, notes);
+    if (!asset) return tl::unexpected(std::move(asset.error()));
+    return std::get<Strands>(std::move(*asset));
+}
+
+Result<Strands> reading::strandsOnly(Reader& reader, const std::string& path) {
+    return Source::open(path).and_then([&](Source&& source) { return strandsOnly(reader, std::move(source), path); });
 }
 
 std::string describe(const LoadedAsset& loaded, const std::string& path) {
     std::string text = "file      " + path + "\nformat    " + lowerEnding(path) + "\n";
-    const Groom* groom = std::get_if<Groom>(&loaded.asset);
-    text += groom != nullptr ? describeGroom(*groom) : describeCards(std::get<Geometry>(loaded.asset));
+    const Strands* strands = std::get_if<Strands>(&loaded.asset);
+    text += strands != nullptr ? describeStrands(*strands) : describeCards(std::get<Mesh>(loaded.asset));
     return text + loaded.notes.text();
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 // Cards from glTF: walks the scene, joins all triangle meshes into one geometry, and adds what shading needs.
-#include "gltf_document.hpp"
 #include "geometry/islands.hpp"
-#include "readers.hpp"
 #include "geometry/vectors.hpp"
+#include "gltf_document.hpp"
+#include "readers.hpp"
 #include "reading.hpp"
 
 #include <algorithm>
@@ -54,7 +54,7 @@ public:
         cards_.name = name;
     }
 
-    Result<Geometry> read() {
+    Result<Mesh> read() {
         if (auto done = walkScene(); !done) return tl::unexpected(done.error());
         if (cards_.indices.empty()) {
             return reading::fault("G012", name_, "the default scene holds no triangles, expected cards",
@@ -340,7 +340,7 @@ private:
     const tinygltf::Model& model_;
     const std::string& name_;
     Diagnostics& notes_;
-    Geometry cards_;
+    Mesh cards_;
     std::vector<glm::vec3> bitangents_;  // per vertex, +v by the file's TANGENT; zero where it has none
     int material_ = -1;
     bool otherMaterials_ = false, missingNormals_ = false;
@@ -348,28 +348,32 @@ private:
 
 }  // namespace
 
-std::string reading::folderOf(const std::string& path) {
-    const std::size_t slash = path.find_last_of("/\\");
-    return slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
-}
-
-Result<Geometry> reading::readGltf(std::span<const std::byte> bytes, const std::string& name,
-                                    const std::string& folder, Diagnostics& notes) {
-    const Result<tinygltf::Model> model = gltf::readDocument(bytes, name, folder);
+Result<Asset> reading::readGltf(Source& source, const std::string& name, Diagnostics& notes) {
+    const auto bytes = source.all();
+    if (bytes.empty() && source.size() > 0) return cannotRead(name);
+    const Result<tinygltf::Model> model = gltf::readDocument(bytes, name, source.folder());
     if (!model) return tl::unexpected(model.error());
     return CardReader(*model, name, notes).read();
 }
 
-Result<Geometry> parseGltf(std::span<const std::byte> bytes, const std::string& name) {
+namespace {
+
+Result<Mesh> meshOnly(reading::Source source, const std::string& name) {
     Diagnostics notes;
-    return reading::readGltf(bytes, name, "", notes);
+    auto asset = reading::readGltf(source, name, notes);
+    if (!asset) return tl::unexpected(std::move(asset.error()));
+    return std::get<Mesh>(std::move(*asset));
 }
 
-Result<Geometry> loadGltf(const std::string& path) {
-    Diagnostics notes;
-    return readFile(path).and_then([&](const std::vector<std::byte>& bytes) {
-        return reading::readGltf(bytes, path, reading::folderOf(path), notes);
-    });
+}  // namespace
+
+Result<Mesh> parseGltf(std::span<const std::byte> bytes, const std::string& name) {
+    return meshOnly(reading::Source(bytes), name);
+}
+
+Result<Mesh> loadGltf(const std::string& path) {
+    return reading::Source::open(path).and_then(
+        [&](reading::Source&& source) { return meshOnly(std::move(source), path); });
 }
 
 }  // namespace pelage::hair

@@ -2,7 +2,7 @@
 // Cem Yuksel's HAIR format. Header of 128 bytes: "HAIR"; strand count; point count; flags; default segments per strand;
 // default thickness, transparency and colour (3 floats); 88 bytes of text. Then, each present if its flag is set:
 // segments (16-bit, one per strand), points (3 floats), thickness, transparency (a float per point), colour (3 floats).
-#include "groom_builder.hpp"
+#include "clean.hpp"
 #include "readers.hpp"
 #include "reading.hpp"
 
@@ -13,6 +13,7 @@ namespace pelage::hair {
 namespace {
 
 using reading::fault;
+using reading::Source;
 constexpr std::size_t kHeaderBytes = 128;
 constexpr std::uint32_t kMaxSegments = 65535;  // the format's 16 bits
 
@@ -37,13 +38,15 @@ void layOut(Header& h) {
     h.end = at;
 }
 
-Result<Header> readHeader(std::span<const std::byte> bytes, const std::string& name) {
-    if (bytes.size() < kHeaderBytes) {
-        return fault(
-            "H001", name,
-            "the file has " + std::to_string(bytes.size()) + " bytes, expected at least the 128 bytes of a HAIR header",
-            "the file is cut off or is no .hair file");
+Result<Header> readHeader(Source& source, const std::string& name) {
+    if (source.size() < kHeaderBytes) {
+        return fault("H001", name,
+                                    "the file has " + std::to_string(source.size()) +
+                                        " bytes, expected at least the 128 bytes of a HAIR header",
+                                    "the file is cut off or is no .hair file");
     }
+    std::array<std::byte, kHeaderBytes> bytes = {};
+    if (!source.read(0, bytes)) return reading::cannotRead(name);
     if (std::memcmp(bytes.data(), "HAIR", 4) != 0) {
         const std::string found(reinterpret_cast<const char*>(bytes.data()), 4);
         return fault("H002", name, "the file starts with \"" + found + "\", expected \"HAIR\"",
@@ -63,11 +66,11 @@ Result<Header> readHeader(std::span<const std::byte> bytes, const std::string& n
                                     "export the groom again, with points");
     }
     layOut(h);
-    if (h.end > bytes.size()) {
+    if (h.end > source.size()) {
         return fault("H004", name,
                                     "the header promises " + std::to_string(h.strands) + " strands with " +
                                         std::to_string(h.points) + " points (" + std::to_string(h.end) +
-                                        " bytes), but the file has " + std::to_string(bytes.size()) + " bytes",
+                                        " bytes), but the file has " + std::to_string(source.size()) + " bytes",
                                     "the file is cut off or its header is damaged: copy or export it again");
     }
     if (h.points > reading::kMaxVertices || h.strands > reading::kMaxVertices) {
@@ -79,22 +82,25 @@ Result<Header> readHeader(std::span<const std::byte> bytes, const std::string& n
     return h;
 }
 
-std::uint32_t pointsOf(std::span<const std::byte> bytes, const Header& h, std::size_t strand) {
-    if (!(h.flags & Segments)) return std::min(h.defaultSegments, h.points) + 1;
-    return std::uint32_t{reading::valueAt<std::uint16_t>(bytes, h.segmentsAt + 2 * strand)} + 1;
-}
-
-/// The segments must use every point exactly once; anything else would shift all strands that follow.
-Result<void> checkSegments(std::span<const std::byte> bytes, const std::string& name, const Header& h) {
+/// Where each strand begins. The segments must use every point exactly once; anything else would shift all strands that
+/// follow.
+Result<std::vector<std::uint32_t>> readFirst(Source& source, const std::string& name, const Header& h) {
+    std::vector<std::uint16_t> segments(h.flags & Segments ? h.strands : 0);
+    if (!source.read(h.segmentsAt, segments)) return reading::cannotRead(name);
+    const std::uint32_t otherwise = std::min(h.defaultSegments, h.points);
+    std::vector<std::uint32_t> first(std::size_t{h.strands} + 1);
     std::uint64_t sum = 0;
-    for (std::size_t s = 0; s < h.strands; ++s) sum += pointsOf(bytes, h, s);
+    for (std::size_t s = 0; s < h.strands; ++s) {
+        sum += std::uint64_t{segments.empty() ? otherwise : segments[s]} + 1;
+        first[s + 1] = static_cast<std::uint32_t>(sum);
+    }
     if (sum != h.points) {
         return fault("H005", name,
                                     "the strands' segments add up to " + std::to_string(sum) +
                                         " points, expected the " + std::to_string(h.points) + " of the header",
                                     "the file is damaged: export the groom again");
     }
-    return {};
+    return first;
 }
 
 template <class T>
@@ -104,50 +110,36 @@ void put(std::vector<std::byte>& out, std::size_t offset, const T& value) {
 
 }  // namespace
 
-Result<Groom> reading::readHair(std::span<const std::byte> bytes, const std::string& name, Diagnostics& notes) {
-    const Result<Header> header = readHeader(bytes, name);
+Result<Asset> reading::readHair(Source& source, const std::string& name, Diagnostics& notes) {
+    const Result<Header> header = readHeader(source, name);
     if (!header) return tl::unexpected(header.error());
-    const Header& h = *header;
-    if (const auto checked = checkSegments(bytes, name, h); !checked) return tl::unexpected(checked.error());
-
-    const bool withWidths = (h.flags & Thickness) != 0;
-    GroomBuilder builder(name, 'H');
-    builder.reserve(h.strands, h.points, withWidths);
-    builder.setDefaultWidth(h.defaultThickness);
-    std::vector<glm::vec3> strand;
-    std::vector<float> widths;
-    std::size_t next = 0;
-    for (std::size_t s = 0; s < h.strands; ++s) {
-        const std::size_t count = pointsOf(bytes, h, s);
-        strand.resize(count);
-        widths.resize(withWidths ? count : 0);
-        for (std::size_t i = 0; i < count; ++i, ++next) {
-            const auto xyz = reading::valueAt<std::array<float, 3>>(bytes, h.pointsAt + 12 * next);
-            strand[i] = {xyz[0], xyz[1], xyz[2]};
-            if (withWidths) widths[i] = reading::valueAt<float>(bytes, h.thicknessAt + 4 * next);
-        }
-        builder.add(strand, widths);
-    }
-    return builder.finish(notes);
+    auto first = readFirst(source, name, *header);
+    if (!first) return tl::unexpected(first.error());
+    Strands strands = {.name = name, .first = std::move(*first)};
+    if (isWidth(header->defaultThickness)) strands.width = header->defaultThickness;
+    strands.points.resize(header->points);
+    strands.widths.resize(header->flags & Thickness ? header->points : 0);
+    if (!source.read(header->pointsAt, strands.points) || !source.read(header->thicknessAt, strands.widths))
+        return cannotRead(name);
+    return cleaned(std::move(strands), 'H', notes);
 }
 
-Result<Groom> parseHair(std::span<const std::byte> bytes, const std::string& name) {
-    Diagnostics notes;
-    return reading::readHair(bytes, name, notes);
+Result<Strands> parseHair(std::span<const std::byte> bytes, const std::string& name) {
+    return reading::strandsOnly(reading::readHair, reading::Source(bytes), name);
 }
 
-Result<Groom> loadHair(const std::string& path) {
-    return readFile(path).and_then([&](const std::vector<std::byte>& bytes) { return parseHair(bytes, path); });
+Result<Strands> loadHair(const std::string& path) {
+    return reading::strandsOnly(reading::readHair, path);
 }
 
-std::vector<std::byte> encodeHair(const Groom& groom) {
+std::vector<std::byte> encodeHair(const Strands& groom) {
     Header h;
     h.strands = groom.strandCount();
     h.flags = Segments | Points | (groom.widths.empty() ? 0U : Thickness);
-    h.defaultThickness = groom.defaultWidth;
+    h.defaultThickness = groom.width;
     std::uint64_t points = 0;
     const auto kept = [&](std::uint32_t s) {  // points of strand s that the format's 16 bits can count
-        return std::min(groom.firstPoint[s + 1] - groom.firstPoint[s], kMaxSegments + 1);
+        return std::min(groom.first[s + 1] - groom.first[s], kMaxSegments + 1);
     };
     for (std::uint32_t s = 0; s < h.strands; ++s) points += std::max(kept(s), 1U);
     h.points = static_cast<std::uint32_t>(points);
@@ -167,7 +159,7 @@ std::vector<std::byte> encodeHair(const Groom& groom) {
 
     std::size_t next = 0;
     for (std::uint32_t s = 0; s < h.strands; ++s) {
-        const std::uint32_t first = groom.firstPoint[s];
+        const std::uint32_t first = groom.first[s];
         const std::uint32_t count = std::max(kept(s), 1U);
         put(out, h.segmentsAt + std::size_t{2} * s, static_cast<std::uint16_t>(count - 1));
         for (std::uint32_t i = 0; i < count; ++i, ++next) {
@@ -177,7 +169,7 @@ std::vector<std::byte> encodeHair(const Groom& groom) {
             put(out, h.pointsAt + 12 * next, std::array<float, 3>{p.x, p.y, p.z});
             if (groom.widths.empty()) continue;
             const bool wide = first + i < groom.widths.size();
-            put(out, h.thicknessAt + 4 * next, wide ? groom.widths[first + i] : groom.defaultWidth);
+            put(out, h.thicknessAt + 4 * next, wide ? groom.widths[first + i] : groom.width);
         }
     }
     return out;

@@ -1,17 +1,22 @@
 // SPDX-License-Identifier: MIT
-// The readers with their notes; the public functions that return a bare value leave the notes out.
+// The readers of readers.def.
 #pragma once
+
+#include "source.hpp"
 
 #include <pelage/hair/load.hpp>
 
 namespace pelage::hair::reading {
 
-Result<Groom> readTfx(std::span<const std::byte> bytes, const std::string& name, Diagnostics& notes);
-Result<Groom> readHair(std::span<const std::byte> bytes, const std::string& name, Diagnostics& notes);
-/// `folder`: where buffers and images named by URIs lie; empty: the file must be complete in itself.
-Result<Geometry> readGltf(std::span<const std::byte> bytes, const std::string& name, const std::string& folder,
-                           Diagnostics& notes);
-/// The folder part of a path; "." for a bare file name.
-std::string folderOf(const std::string& path);
+/// Reads an asset of one format. Points are in the file's units; `notes` takes what the user should know.
+#define PELAGE_READER(ending, function) \
+    Result<Asset> function(Source& source, const std::string& name, Diagnostics& notes);
+#include "readers.def"
+#undef PELAGE_READER
+
+/// For readers that give strands and nothing else: without the notes.
+using Reader = Result<Asset>(Source& source, const std::string& name, Diagnostics& notes);
+Result<Strands> strandsOnly(Reader& reader, Source source, const std::string& name);
+Result<Strands> strandsOnly(Reader& reader, const std::string& path);
 
 }  // namespace pelage::hair::reading

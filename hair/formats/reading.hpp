@@ -28,6 +28,9 @@ tl::unexpected<Diagnostics> fault(Code code, std::string_view file, std::string_
 Diagnostic remark(Severity severity, Code code, std::string_view file, std::string_view text,
                   std::string_view hint);
 
+/// F001 for a file that ends before the bytes its size promised.
+Diagnostic cannotRead(std::string_view file);
+
 /// The value at `offset`; the caller has checked that it lies inside.
 template <class T>
 T valueAt(std::span<const std::byte> bytes, std::size_t offset) {

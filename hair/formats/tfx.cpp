@@ -2,7 +2,7 @@
 // TressFX 4 grooms. Header of 160 bytes: float version; then as unsigned 32-bit numbers the strand count, the points
 // per strand, and offsets from the start of the file of positions (float4, w is the inverse mass), strand texture
 // coordinates (float2), vertex texture coordinates (float2), strand thickness and vertex colour; 0 means absent.
-#include "groom_builder.hpp"
+#include "clean.hpp"
 #include "readers.hpp"
 #include "reading.hpp"
 
@@ -13,6 +13,7 @@ namespace pelage::hair {
 namespace {
 
 using reading::fault;
+using reading::Source;
 constexpr std::size_t kHeaderBytes = 160;
 constexpr std::size_t kPointBytes = 16;
 
@@ -21,7 +22,7 @@ struct Header {
     std::uint32_t strands = 0, pointsPerStrand = 0, positions = 0;
 };
 
-tl::unexpected<Diagnostics> promisesMore(const std::string& name, const Header& h, std::size_t size) {
+Diagnostic promisesMore(const std::string& name, const Header& h, std::uint64_t size) {
     return fault("T004", name,
                  "the header promises " + std::to_string(h.strands) + " strands of " +
                      std::to_string(h.pointsPerStrand) + " points (" +
@@ -30,13 +31,15 @@ tl::unexpected<Diagnostics> promisesMore(const std::string& name, const Header& 
                  "the file is cut off or its header is damaged: copy or export it again");
 }
 
-Result<Header> readHeader(std::span<const std::byte> bytes, const std::string& name) {
-    if (bytes.size() < kHeaderBytes) {
-        return fault("T001", name,
-                                    "the file has " + std::to_string(bytes.size()) +
+Result<Header> readHeader(Source& source, const std::string& name) {
+    if (source.size() < kHeaderBytes) {
+        return tl::unexpected(fault("T001", name,
+                                    "the file has " + std::to_string(source.size()) +
                                         " bytes, expected at least the 160 bytes of a TressFX header",
                                     "the file is cut off or is no .tfx file");
     }
+    std::array<std::byte, kHeaderBytes> bytes = {};
+    if (!source.read(0, bytes)) return tl::unexpected(reading::cannotRead(name));
     Header h;
     h.version = reading::valueAt<float>(bytes, 0);
     h.strands = reading::valueAt<std::uint32_t>(bytes, 4);
@@ -62,8 +65,8 @@ Result<Header> readHeader(std::span<const std::byte> bytes, const std::string& n
             "the header is damaged: export the groom again");
     }
     const std::uint64_t points = std::uint64_t{h.strands} * h.pointsPerStrand;
-    if (!reading::fits(h.positions, points, kPointBytes, bytes.size())) {
-        return tl::unexpected(promisesMore(name, h, bytes.size()));
+    if (!reading::fits(h.positions, points, kPointBytes, source.size())) {
+        return tl::unexpected(promisesMore(name, h, source.size()));
     }
     if (points > reading::kMaxVertices) {
         return fault("T007", name,
@@ -76,32 +79,30 @@ Result<Header> readHeader(std::span<const std::byte> bytes, const std::string& n
 
 }  // namespace
 
-Result<Groom> reading::readTfx(std::span<const std::byte> bytes, const std::string& name, Diagnostics& notes) {
-    const Result<Header> header = readHeader(bytes, name);
+Result<Asset> reading::readTfx(Source& source, const std::string& name, Diagnostics& notes) {
+    const Result<Header> header = readHeader(source, name);
     if (!header) return tl::unexpected(header.error());
-    const std::size_t perStrand = header->pointsPerStrand;
-    GroomBuilder builder(name, 'T');
-    builder.reserve(header->strands, std::size_t{header->strands} * perStrand, false);
-    std::vector<glm::vec3> strand(perStrand);
-    std::size_t offset = header->positions;
-    for (std::uint32_t s = 0; s < header->strands; ++s) {
-        for (glm::vec3& p : strand) {
-            const auto xyz = reading::valueAt<std::array<float, 3>>(bytes, offset);
-            p = {xyz[0], xyz[1], xyz[2]};
-            offset += kPointBytes;
-        }
-        builder.add(strand, {});
+    Strands strands = {.name = name};
+    strands.points.resize(std::size_t{header->strands} * header->pointsPerStrand);
+    strands.first.resize(std::size_t{header->strands} + 1);
+    for (std::uint32_t s = 0; s <= header->strands; ++s) strands.first[s] = s * header->pointsPerStrand;
+    // In blocks, because the fourth number of each point (its inverse mass) is not wanted.
+    std::vector<std::array<float, 4>> block;
+    constexpr std::size_t kBlock = 65536;  // points
+    for (std::size_t at = 0; at < strands.points.size(); at += block.size()) {
+        block.resize(std::min(kBlock, strands.points.size() - at));
+        if (!source.read(header->positions + at * kPointBytes, block)) return tl::unexpected(cannotRead(name));
+        for (std::size_t i = 0; i < block.size(); ++i) strands.points[at + i] = {block[i][0], block[i][1], block[i][2]};
     }
-    return builder.finish(notes);
+    return cleaned(std::move(strands), 'T', notes);
 }
 
-Result<Groom> parseTfx(std::span<const std::byte> bytes, const std::string& name) {
-    Diagnostics notes;
-    return reading::readTfx(bytes, name, notes);
+Result<Strands> parseTfx(std::span<const std::byte> bytes, const std::string& name) {
+    return reading::strandsOnly(reading::readTfx, reading::Source(bytes), name);
 }
 
-Result<Groom> loadTfx(const std::string& path) {
-    return readFile(path).and_then([&](const std::vector<std::byte>& bytes) { return parseTfx(bytes, path); });
+Result<Strands> loadTfx(const std::string& path) {
+    return reading::strandsOnly(reading::readTfx, path);
 }
 
 }  // namespace pelage::hair

@@ -16,6 +16,35 @@ Result<rhi::BindGroup> Renderer::State::groupFor(std::map<const void*, rhi::Bind
     return group;
 }
 
+Result<rhi::BindGroup> Renderer::State::objectGroup(ObjectState& object, const rhi::BindGroupLayout& layout,
+                                                         const rhi::Buffer& pieces) {
+    const bool strands = object.geometry->strands.has_value();
+    const StrandBuffers& b = object.moving.buffers();
+    const ObjectState::Group wanted = strands ? ObjectState::Group{layout.get(), b.points, b.starts, pieces, {}}
+                                              : ObjectState::Group{layout.get(), {}, {}, {}, {}};
+    for (const ObjectState::Group& each : object.groups) {
+        if (each.layout == wanted.layout && each.points == wanted.points && each.starts == wanted.starts &&
+            each.pieces == wanted.pieces)
+            return each.group;
+    }
+    rhi::BindGroupDescriptor descriptor = {.label = "object", .layout = layout};
+    const rhi::Buffer buffers[] = {object.block, b.points, b.starts, b.first, b.widths, b.colors, b.ids, pieces};
+    for (const rhi::BindGroupLayoutEntry& entry : layout.entries()) {
+        // What else a host's shader declares in this set is told by the error of createBindGroup().
+        if (entry.binding >= std::size(buffers) || !buffers[entry.binding]) continue;
+        const std::uint64_t size = entry.binding == 0 ? sizeof(ObjectBlock) : 0;
+        descriptor.entries.push_back({entry.binding, rhi::BufferBinding{buffers[entry.binding], 0, size}});
+    }
+    auto made = device.createBindGroup(descriptor);
+    if (!made) return made;
+    // Two sets of points times two sets of pieces, for each layout; buffers that are gone make room.
+    constexpr std::size_t most = 32;
+    if (object.groups.size() >= most) object.groups.erase(object.groups.begin());
+    object.groups.push_back(wanted);
+    object.groups.back().group = *made;
+    return made;
+}
+
 Result<rhi::BindGroup> Renderer::State::materialGroup(std::size_t index, const ObjectPipelines& set,
                                                        std::uint32_t shader, const rhi::BindGroupLayout& layout) {
     const ObjectState& object = objects[index];
@@ -27,9 +56,18 @@ Result<rhi::BindGroup> Renderer::State::materialGroup(std::size_t index, const O
     };
     return bindings.bindGroup({index, layout.get(), shader}, layout, set.type, *object.material, *object.geometry,
                               uploads, [&]() -> MaterialBindings::Modules {
-                                  return {made(use.vertex), made(use.fragment), made(use.compute)};
+                                  return {made(set.vertexFile(use)), made(use.fragment), made(use.compute)};
                               });
 }
+
+namespace {
+
+/// Whether a shader of the object draws back to front; then ObjectState::sorted is what is drawn.
+bool isSorted(const ObjectState& object, std::uint32_t shader) {
+    return object.sorted && object.shown->shaders[shader].state.blend == materials::Blend::Premultiplied;
+}
+
+}  // namespace
 
 Result<ObjectGroups> Renderer::State::groupsOf(std::size_t index, std::uint32_t shader, std::size_t view,
                                                     const passes::PassContext& context,
@@ -52,7 +90,10 @@ Result<ObjectGroups> Renderer::State::groupsOf(std::size_t index, std::uint32_t 
         groups[2] = *made;
     }
     if (layouts[3]) {
-        auto made = groupFor(object.groups, layouts[3], object.block, sizeof(ObjectBlock), "object");
+        const GpuGeometry& geometry = *object.geometry;
+        const rhi::Buffer& pieces =
+            !geometry.strands || isSorted(object, shader) ? object.sorted : geometry.strands->pieces;
+        auto made = objectGroup(object, layouts[3], pieces);
         if (!made) return tl::unexpected(made.error());
         groups[3] = *made;
     }
@@ -80,8 +121,8 @@ struct DrawList {
         rhi::RenderPassEncoder& encoder = *context.raster;
         for (std::size_t i = 0; i < state->recorded->objects.size(); ++i) {
             const ObjectState& object = state->objects[i];
-            const Geometry& geometry = *object.geometry->source;
-            if (geometry.indices.empty() || !object.shown) continue;
+            const GpuGeometry& geometry = *object.geometry;
+            if (geometry.empty() || !object.shown) continue;
             for (const ObjectPipelines::Use& wanted : object.shown->uses) {
                 if (wanted.pass != pass || wanted.pipeline->state() != Pipelines::Entry::State::Ready) continue;
                 const rhi::RenderPipeline& made = wanted.pipeline->render();
@@ -90,17 +131,19 @@ struct DrawList {
                 encoder.pushDebugGroup(state->recorded->objects[i].name);
                 encoder.setPipeline(made);
                 setGroups(encoder, *groups);
-                encoder.setVertexBuffer(0, object.geometry->vertices);
-                const bool blends = object.shown->shaders[wanted.shader].state.blend == materials::Blend::Premultiplied;
-                encoder.setIndexBuffer(blends && object.sortedIndices ? object.sortedIndices : object.geometry->indices,
-                                       rhi::IndexFormat::Uint32);
-                if (geometry.topology == Topology::Lines) {
-                    encoder.setLineWidth(shadow ? object.lineWidthShadow : object.lineWidthMain);
-                    state->frame.segments += geometry.indices.size() / 2;
+                const bool sorted = isSorted(object, wanted.shader);
+                if (geometry.strands) {
+                    // Two vertices at each place of the curve, both ends of the piece included.
+                    const std::uint32_t segments = sorted ? 1 : geometry.strands->pieceSegments;
+                    encoder.draw(2 * (segments * object.shown->subdivisions + 1),
+                                 sorted ? object.sortedCount : geometry.strands->pieceCount);
+                    state->frame.segments += geometry.strands->segments;
                 } else {
-                    state->frame.triangles += geometry.indices.size() / 3;
+                    encoder.setVertexBuffer(0, geometry.vertices);
+                    encoder.setIndexBuffer(sorted ? object.sorted : geometry.indices, rhi::IndexFormat::Uint32);
+                    encoder.drawIndexed(geometry.indexCount);
+                    state->frame.triangles += geometry.indexCount / 3;
                 }
-                encoder.drawIndexed(static_cast<std::uint32_t>(geometry.indices.size()));
                 ++context.draws;
                 encoder.popDebugGroup();
             }

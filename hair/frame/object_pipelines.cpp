@@ -11,14 +11,19 @@ namespace pelage::hair {
 
 namespace {
 
-// The vertex buffer of every drawable: struct Vertex.
+// The vertex buffer of a mesh: struct Vertex.
 const rhi::VertexBufferLayout vertexLayout = {
     .arrayStride = sizeof(Vertex),
     .attributes = {{rhi::VertexFormat::Float32x3, offsetof(Vertex, position), 0},
                    {rhi::VertexFormat::Float32x3, offsetof(Vertex, normal), 1},
                    {rhi::VertexFormat::Float32x3, offsetof(Vertex, tangent), 2},
                    {rhi::VertexFormat::Float32x2, offsetof(Vertex, uv), 3},
-                   {rhi::VertexFormat::Float32x3, offsetof(Vertex, strandId), 4}}};
+                   {rhi::VertexFormat::Float32x2, offsetof(Vertex, strandId), 4}}};
+
+std::uint32_t subdivisionsOf(const GpuGeometry& geometry) {
+    const Strands* strands = strandsOf(geometry.source);
+    return strands != nullptr ? std::clamp(strands->subdivisions, 1U, kMaxSubdivisions) : 1U;
+}
 
 rhi::CompareFunction compareFor(materials::DepthTest test) {
     switch (test) {  // reversed depth: nearer is greater
@@ -60,6 +65,11 @@ bool sameStates(const materials::CompiledMaterial::Shader& a, const materials::C
 
 }  // namespace
 
+const std::string& ObjectPipelines::vertexFile(const materials::ShaderUse& use) const {
+    static const std::string ofMeshes = "hair.vert", ofStrands = "strands.vert";
+    return strands && use.vertex == ofMeshes ? ofStrands : use.vertex;
+}
+
 bool ObjectPipelines::isReady() const {
     return std::all_of(uses.begin(), uses.end(),
                        [](const Use& use) { return use.pipeline->state() == Pipelines::Entry::State::Ready; });
@@ -75,14 +85,14 @@ const Diagnostics* ObjectPipelines::failure() const {
 bool Renderer::State::isFor(const ObjectPipelines& set, const ObjectState& object,
                             const materials::CompiledMaterial& material) const {
     return set.lights == lights && set.environmentOff == environmentOff &&
-           set.isEmpty == object.geometry->source->indices.empty() &&
+           set.isEmpty == object.geometry->empty() && set.subdivisions == subdivisionsOf(*object.geometry) &&
            std::equal(set.shaders.begin(), set.shaders.end(), material.shaders.begin(), material.shaders.end(),
                       sameStates);
 }
 
 Result<void> Renderer::State::updatePipelines(ObjectState& object, const Object& from) {
     if (auto checked = checkType(from.material.sharedType()); !checked) return checked;
-    const bool strands = object.geometry->source->topology == Topology::Lines;
+    const bool strands = object.geometry->strands.has_value();
     // What was drawn with another type or topology cannot be bound to this one's values.
     for (std::optional<ObjectPipelines>* set : {&object.shown, &object.next}) {
         if (*set && ((*set)->type != from.material.sharedType() || (*set)->strands != strands)) set->reset();
@@ -91,14 +101,15 @@ Result<void> Renderer::State::updatePipelines(ObjectState& object, const Object&
     if (!newest || !isFor(*newest, object, *object.material)) {
         object.next = ObjectPipelines{.type = from.material.sharedType(),
                                       .strands = strands,
-                                      .isEmpty = object.geometry->source->indices.empty(),
+                                      .isEmpty = object.geometry->empty(),
+                                      .subdivisions = subdivisionsOf(*object.geometry),
                                       .environmentOff = environmentOff,
                                       .lights = lights,
                                       .shaders = object.material->shaders};
     }
     for (std::optional<ObjectPipelines>* set : {&object.shown, &object.next}) {
         if (!*set || (*set)->graph == graphBuilds) continue;
-        if (auto asked = requestPipelines(**set, object.geometry->source->name); !asked)
+        if (auto asked = requestPipelines(**set, nameOf(object.geometry->source)); !asked)
             return tl::unexpected(asked.error());
     }
     if (!object.next) return {};
@@ -173,6 +184,7 @@ std::vector<rhi::ConstantEntry> Renderer::State::constantsOf(const ObjectPipelin
     }
     constants.push_back({"isStrand", set.strands ? 1.0 : 0.0});
     constants.push_back({"sampleCount", static_cast<double>(samples)});
+    constants.push_back({"subdivisions", static_cast<double>(set.subdivisions)});
     constants.push_back({"isLightView", pass.view == "shadow" ? 1.0 : 0.0});
     for (rhi::ConstantEntry& constant : set.lights.constants()) constants.push_back(std::move(constant));
     // What the pass says goes before what the material says.
@@ -198,14 +210,15 @@ Result<rhi::RenderPipelineDescriptor> Renderer::State::describePipeline(
     materials::RenderState state = shader.state;
     if (set.strands) state.alphaToCoverage = false;
 
-    auto vertex = module(shader.use.vertex);
+    auto vertex = module(set.vertexFile(shader.use));
     if (!vertex) return tl::unexpected(vertex.error());
     rhi::RenderPipelineDescriptor descriptor;
     descriptor.vertex = {*vertex, declaredConstants(*vertex, constants)};
-    descriptor.vertexBuffers = {vertexLayout};
+    if (!set.strands) descriptor.vertexBuffers = {vertexLayout};
+    // Ribbons turn towards the camera: which side of one is seen says nothing.
     descriptor.primitive = {
-        .topology = set.strands ? rhi::PrimitiveTopology::LineList : rhi::PrimitiveTopology::TriangleList,
-        .cullMode = state.cull};
+        .topology = set.strands ? rhi::PrimitiveTopology::TriangleStrip : rhi::PrimitiveTopology::TriangleList,
+        .cullMode = set.strands ? rhi::CullMode::None : state.cull};
     if (targets.depth != rhi::TextureFormat::Undefined) {
         descriptor.depthStencil = {.format = targets.depth,
                                    .depthWriteEnabled = state.depthWrite && !targets.depthReadOnly,

@@ -2,9 +2,9 @@
 // Before a frame is recorded: the graph for its extent and settings, the uniform blocks of its views, the state of its
 // objects.
 #include "state.hpp"
-#include "visibility/cards/sorting.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace pelage::hair {
 
@@ -81,7 +81,8 @@ Result<void> Renderer::State::writeView(std::size_t index, const FrameBlock& blo
     return {};
 }
 
-Result<void> Renderer::State::prepareObjects(Scene& scene, const FrameViews& frameViews) {
+Result<void> Renderer::State::prepareObjects(Scene& scene, const FrameViews& frameViews,
+                                              rhi::CommandEncoder& encoder) {
     objects.resize(scene.objects.size());
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         Object& object = scene.objects[i];
@@ -89,6 +90,12 @@ Result<void> Renderer::State::prepareObjects(Scene& scene, const FrameViews& fra
         auto geometry = uploads.geometry(object.geometry);
         if (!geometry) return tl::unexpected(geometry.error());
         state.geometry = *geometry;
+        const Strands* strands = strandsOf(object.geometry);
+        if (strands != nullptr && !(*geometry)->empty()) {
+            const StrandBuffers& rest = (*geometry)->strands->buffers;
+            if (auto moved = state.moving.update(device, encoder, object.name, object.moved, *strands, rest); !moved)
+                return moved;
+        }
         state.material = &object.material.compile();
         if (auto updated = updatePipelines(state, object); !updated) return updated;
         if (!state.block) {
@@ -101,44 +108,49 @@ Result<void> Renderer::State::prepareObjects(Scene& scene, const FrameViews& fra
         ObjectBlock block;
         block.model = object.transform;
         block.normalMatrix = glm::mat4(glm::transpose(glm::inverse(glm::mat3(object.transform))));
-        if (object.geometry->topology == Topology::Lines) {
-            const glm::vec3 middle = glm::vec3(
-                object.transform * glm::vec4(0.5F * (object.geometry->boundsMin + object.geometry->boundsMax), 1.0F));
-            const auto width = [&](const FrameBlock& view) {
-                const float distance = std::max(glm::dot(middle - view.eye, view.viewForward), 1e-4F);
-                const float pixels = state.geometry->meanWidth / (view.pixelScale * distance + view.pixelConstant);
-                return std::clamp(pixels, 1.0F,
-                                  device.has(rhi::Feature::WideLines) ? device.limits().maxLineWidth : 1.0F);
-            };
-            state.lineWidthMain = width(frameViews.main);
-            state.lineWidthShadow = frameViews.shadows.empty() ? 1.0F : width(frameViews.shadows.front());
-            block.lineWidth = {state.lineWidthMain, state.lineWidthShadow, 0, 0};
+        if (strands != nullptr) {
+            const StrandBuffers& now = state.moving.buffers();
+            block.center = glm::vec4(strands->center, std::abs(glm::determinant(glm::mat3(object.transform))));
+            block.strides = {now.startStride, now.widthStride, now.colorStride, 0};
         }
         auto written = device.queue().writeBuffer(state.block, 0, std::as_bytes(std::span(&block, 1)));
         if (!written) return tl::unexpected(written.error());
-        // Alpha blending needs an order.
-        const bool blends =
-            state.shown && std::any_of(state.shown->shaders.begin(), state.shown->shaders.end(), [](const auto& s) {
-                return s.enabled && s.state.blend == materials::Blend::Premultiplied;
-            });
-        if (!blends) {
-            state.sortedIndices = {};
-            continue;
-        }
-        const auto sorted = backToFront(*object.geometry, object.transform, frameViews.main.viewForward);
-        const auto bytes = std::as_bytes(std::span(sorted));
-        if (!state.sortedIndices || state.sortedIndices.size() != bytes.size()) {
-            auto buffer = device.createBuffer({.label = object.name + " sorted indices",
-                                               .size = bytes.size(),
-                                               .usage = rhi::BufferUsage::Index | rhi::BufferUsage::CopyDst});
-            if (!buffer) return tl::unexpected(buffer.error());
-            state.sortedIndices = *buffer;
-        }
-        written = device.queue().writeBuffer(state.sortedIndices, 0, bytes);
-        if (!written) return tl::unexpected(written.error());
+        auto sorted = sortObject(object, state, glm::vec3(frameViews.main.viewForward));
+        if (!sorted) return sorted;
     }
     uploads.collect();
     return {};
+}
+
+// Alpha blending needs an order; nothing else does.
+Result<void> Renderer::State::sortObject(const Object& from, ObjectState& state, const glm::vec3& forward) {
+    const bool blends =
+        state.shown && std::any_of(state.shown->shaders.begin(), state.shown->shaders.end(), [](const auto& s) {
+            return s.enabled && s.state.blend == materials::Blend::Premultiplied;
+        });
+    if (!blends || state.geometry->empty()) {
+        state.sorted = {};
+        return {};
+    }
+    std::span<const std::byte> bytes;
+    rhi::BufferUsage usage = rhi::BufferUsage::Index;
+    if (const Strands* strands = strandsOf(from.geometry)) {
+        const bool moved = !from.moved.buffer && !from.moved.points.empty();
+        const auto segments =
+            order.segments(*strands, moved ? from.moved.points : strands->points, from.transform, forward);
+        state.sortedCount = static_cast<std::uint32_t>(segments.size());
+        bytes = std::as_bytes(segments);
+        usage = rhi::BufferUsage::Storage;
+    } else {
+        bytes = std::as_bytes(order.triangles(*meshOf(from.geometry), from.transform, forward));
+    }
+    usage = usage | rhi::BufferUsage::CopyDst;
+    if (!state.sorted || state.sorted.size() != bytes.size() || state.sorted.usage() != usage) {
+        auto buffer = device.createBuffer({.label = from.name + " sorted", .size = bytes.size(), .usage = usage});
+        if (!buffer) return tl::unexpected(buffer.error());
+        state.sorted = *buffer;
+    }
+    return writeBuffer(device, state.sorted, bytes);
 }
 
 }  // namespace pelage::hair

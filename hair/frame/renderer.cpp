@@ -108,7 +108,7 @@ Result<void> Renderer::encode(Scene& scene, const FrameSettings& settings, rhi::
     const FrameViews views = makeViews(scene, settings, shadowSize, shadowLights);
     state.lights = views.lights;
     state.environmentOff = !scene.environment.enabled();
-    if (auto prepared = state.prepareObjects(scene, views); !prepared) return prepared;
+    if (auto prepared = state.prepareObjects(scene, views, encoder); !prepared) return prepared;
     if (auto written = state.writeView(0, views.main); !written) return written;
     for (std::size_t i = 0; i < views.shadows.size(); ++i) {
         if (auto written = state.writeView(i + 1, views.shadows[i]); !written) return written;
@@ -146,6 +146,12 @@ rhi::Buffer Renderer::exportedBuffer(const std::string& name) const {
 }
 const passes::Plan& Renderer::plan() const {
     return state_->graph.plan();
+}
+
+const StrandBuffers* Renderer::strandBuffers(std::size_t object) const {
+    const auto& objects = state_->objects;
+    if (object >= objects.size() || !objects[object].geometry || !objects[object].geometry->strands) return nullptr;
+    return &objects[object].moving.buffers();
 }
 
 namespace {

@@ -8,6 +8,7 @@
 #include "pipelines.hpp"
 #include "resources/uploads.hpp"
 #include "views.hpp"
+#include "visibility/cards/sorting.hpp"
 
 #include <pelage/hair/renderer.hpp>
 
@@ -26,7 +27,8 @@ inline Diagnostic firstError(const Diagnostics& found) {
 
 struct ObjectBlock {
     glm::mat4 model = glm::mat4(1.0F), normalMatrix = glm::mat4(1.0F);
-    glm::vec4 lineWidth = {};
+    glm::vec4 center = {};  // hair/shaders/object.glsl
+    glm::uvec4 strides = {};
 };
 
 // The pipelines of one object: of the shaders of its material as they were, one for each pass that draws or dispatches
@@ -34,6 +36,7 @@ struct ObjectBlock {
 struct ObjectPipelines {
     std::shared_ptr<const materials::MaterialType> type = {};
     bool strands = false, isEmpty = false;
+    std::uint32_t subdivisions = 1;
     bool environmentOff = false;
     LightOptions lights = {};
     std::vector<materials::CompiledMaterial::Shader> shaders = {};
@@ -46,6 +49,8 @@ struct ObjectPipelines {
     std::vector<Use> uses = {};
     bool failureSaid = false;
 
+    /// Material types name the vertex shader of meshes; strands have one of their own in its place.
+    const std::string& vertexFile(const materials::ShaderUse& use) const;
     bool isReady() const;
     const Diagnostics* failure() const;
 };
@@ -53,10 +58,17 @@ struct ObjectPipelines {
 // What an object keeps from frame to frame; found by its index in the scene.
 struct ObjectState {
     rhi::Buffer block = {};
-    std::map<const void*, rhi::BindGroup> groups = {};  // by layout
-    rhi::Buffer sortedIndices = {};
+    // By layout and, for strands, the buffers that change: points take turns, pieces are as cut or as sorted.
+    struct Group {
+        const void* layout = nullptr;
+        rhi::Buffer points = {}, starts = {}, pieces = {};
+        rhi::BindGroup group = {};
+    };
+    std::vector<Group> groups = {};
+    MovingPoints moving = {};
+    rhi::Buffer sorted = {};                    // indices of a mesh, or pieces of one segment each
+    std::uint32_t sortedCount = 0;              // pieces
     std::optional<ObjectPipelines> shown = {}, next = {};  // `next` waits for its pipelines
-    float lineWidthMain = 1, lineWidthShadow = 1;
     const GpuGeometry* geometry = nullptr;
     const materials::CompiledMaterial* material = nullptr;
 };
@@ -81,6 +93,7 @@ struct Renderer::State {
     Uploads uploads;
     MaterialBindings bindings;
     ShaderCode hostShaders;
+    BackToFront order;
     std::map<std::string, rhi::ShaderModule> modules;
     PipelineMode mode = PipelineMode::Synchronous;
     Pipelines pipelines;
@@ -109,7 +122,8 @@ struct Renderer::State {
     Result<rhi::ShaderModule> module(const std::string& file);
     Result<void> buildGraph(const Scene& scene, const FrameSettings& settings, std::uint32_t& shadowSize,
                              std::uint32_t& shadowLights);
-    Result<void> prepareObjects(Scene& scene, const FrameViews& frameViews);
+    Result<void> prepareObjects(Scene& scene, const FrameViews& frameViews, rhi::CommandEncoder& encoder);
+    Result<void> sortObject(const Object& from, ObjectState& state, const glm::vec3& forward);
     Result<void> writeView(std::size_t index, const FrameBlock& block);
     // object_pipelines.cpp
     Result<void> updatePipelines(ObjectState& object, const Object& from);
@@ -132,6 +146,7 @@ struct Renderer::State {
     Result<rhi::BindGroup> groupFor(std::map<const void*, rhi::BindGroup>& cache,
                                          const rhi::BindGroupLayout& layout, const rhi::Buffer& buffer,
                                          std::uint64_t size, const char* label);
+    Result<rhi::BindGroup> objectGroup(ObjectState& object, const rhi::BindGroupLayout& layout, const rhi::Buffer& pieces);
     /// The groups of the sets that an object's shader uses in a pass; empty where its layout is.
     Result<ObjectGroups> groupsOf(std::size_t index, std::uint32_t shader, std::size_t view,
                                        const passes::PassContext& context,

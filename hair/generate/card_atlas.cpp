@@ -78,7 +78,7 @@ glm::vec2 CardAtlas::uv(std::uint32_t card, float across, float down) const {
     return glm::vec2(x, y) / static_cast<float>(size_);
 }
 
-void CardAtlas::draw(std::uint32_t card, const Groom& groom, std::span<const std::uint32_t> members,
+void CardAtlas::draw(std::uint32_t card, const Strands& groom, std::span<const std::uint32_t> members,
                      const CardFrame& frame) {
     const Cell cell = cellOf(card);
     if (cell.width < 2 * kGutter + 2 || cell.height < kGutter + 2) return;
@@ -94,7 +94,7 @@ void CardAtlas::draw(std::uint32_t card, const Groom& groom, std::span<const std
         const std::size_t member = i * members.size() / count;
         const std::uint32_t s = members[member];
         const auto id = static_cast<std::uint8_t>(1 + static_cast<int>(254.0F * hashUnit(s)));
-        strands.push_back(flatten(strandOf(groom, s), frame.starts[member], frame, rows, id));
+        strands.push_back(flatten(groom.strand(s), frame.starts[member], frame, rows, id));
     }
     std::stable_sort(strands.begin(), strands.end(), [](const auto& a, const auto& b) { return a.depth < b.depth; });
 
@@ -140,7 +140,7 @@ void CardAtlas::draw(std::uint32_t card, const Groom& groom, std::span<const std
     }
 }
 
-void CardAtlas::finish(Geometry& cards) {
+void CardAtlas::finish(Mesh& cards) {
     Image8& colour = cards.colorMap;
     colour.width = colour.height = size_;
     colour.channels = 4;

@@ -13,10 +13,10 @@ public:
     CardAtlas(std::uint32_t cards, std::uint32_t size);
 
     /// Draws the strands of one card into its cell.
-    void draw(std::uint32_t card, const Groom& groom, std::span<const std::uint32_t> members, const CardFrame& frame);
+    void draw(std::uint32_t card, const Strands& groom, std::span<const std::uint32_t> members, const CardFrame& frame);
     /// Texture coordinates of a card's point: across and down its cell, both 0..1.
     glm::vec2 uv(std::uint32_t card, float across, float down) const;
-    void finish(Geometry& cards);
+    void finish(Mesh& cards);
 
 private:
     struct Cell {

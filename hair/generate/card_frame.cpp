@@ -34,11 +34,11 @@ float arcOf(const CardFrame& frame, std::size_t station) {
 }
 
 /// Roots of a cluster do not lie side by side: some lie further along the card than others. Sets starts and length.
-void placeStarts(const Groom& groom, std::span<const std::uint32_t> members, CardFrame& frame) {
+void placeStarts(const Strands& groom, std::span<const std::uint32_t> members, CardFrame& frame) {
     std::vector<float> lengths;
     vec3 root(0), direction(0);
     for (const std::uint32_t s : members) {
-        const auto strand = strandOf(groom, s);
+        const auto strand = groom.strand(s);
         lengths.push_back(lengthOfStrand(strand));
         vec3 ahead = strand.back();
         pointAtArc(strand, 0.15F * lengths.back(), ahead);
@@ -48,7 +48,7 @@ void placeStarts(const Groom& groom, std::span<const std::uint32_t> members, Car
     direction = unitOr(direction, vec3(0, -1, 0));
     const float typical = quantile(lengths, 0.5F);
     for (const std::uint32_t s : members) {
-        const float ahead = glm::dot(strandOf(groom, s).front() - root, direction);
+        const float ahead = glm::dot(groom.strand(s).front() - root, direction);
         frame.starts.push_back(std::clamp(ahead, -0.3F * typical, 0.3F * typical));
     }
     const float first = *std::min_element(frame.starts.begin(), frame.starts.end());
@@ -61,7 +61,7 @@ void placeStarts(const Groom& groom, std::span<const std::uint32_t> members, Car
 }
 
 /// Means of steps, not of places: where a strand begins or ends, the mean of the others' places would jump.
-void placeMiddles(const Groom& groom, std::span<const std::uint32_t> members, CardFrame& frame) {
+void placeMiddles(const Strands& groom, std::span<const std::uint32_t> members, CardFrame& frame) {
     const std::size_t count = frame.stations.size();
     // The anchor: the first station where nearly all strands have begun.
     const float begun = quantile(frame.starts, 0.95F);
@@ -72,7 +72,7 @@ void placeMiddles(const Groom& groom, std::span<const std::uint32_t> members, Ca
         float alive = 0;
         for (std::size_t i = 0; i < members.size(); ++i) {
             vec3 value;
-            if (!valueOf(strandOf(groom, members[i]), frame.starts[i], value)) continue;
+            if (!valueOf(groom.strand(members[i]), frame.starts[i], value)) continue;
             sum += value;
             alive += 1;
         }
@@ -89,7 +89,7 @@ void placeMiddles(const Groom& groom, std::span<const std::uint32_t> members, Ca
             },
             mean);
     };
-    vec3 middle = strandOf(groom, members[0]).front();
+    vec3 middle = groom.strand(members[0]).front();
     meanOf([&](std::span<const vec3> strand, float start,
                vec3& value) { return pointAtArc(strand, arcOf(frame, anchor) - start, value); },
            middle);
@@ -144,7 +144,7 @@ void orient(std::vector<Station>& stations, const vec3& center) {
 }
 
 /// Width from the spread along `side`, rise and bend from a least-squares parabola through the strands.
-void measure(const Groom& groom, std::span<const std::uint32_t> members, CardFrame& frame) {
+void measure(const Strands& groom, std::span<const std::uint32_t> members, CardFrame& frame) {
     const std::size_t count = frame.stations.size();
     std::size_t firstMeasured = count;                         // station with enough strands to tell
     std::vector<std::array<double, 3>> few(count, {0, 0, 0});  // where there are not: their number, sums of y and x^2
@@ -154,7 +154,7 @@ void measure(const Groom& groom, std::span<const std::uint32_t> members, CardFra
         double n = 0, sx2 = 0, sx4 = 0, sy = 0, sx2y = 0;
         for (std::size_t i = 0; i < members.size(); ++i) {
             vec3 p;
-            if (!pointAtArc(strandOf(groom, members[i]), arcOf(frame, k) - frame.starts[i], p)) continue;
+            if (!pointAtArc(groom.strand(members[i]), arcOf(frame, k) - frame.starts[i], p)) continue;
             const float x = glm::dot(p - station.middle, station.side);
             const double y = glm::dot(p - station.middle, station.outward), x2 = static_cast<double>(x) * x;
             spread.push_back(std::abs(x));
@@ -224,7 +224,7 @@ CardFrame::Station CardFrame::at(float v) const {
             glm::mix(a.bend, b.bend, t)};
 }
 
-CardFrame frameOf(const Groom& groom, std::span<const std::uint32_t> members, const glm::vec3& center) {
+CardFrame frameOf(const Strands& groom, std::span<const std::uint32_t> members, const glm::vec3& center) {
     constexpr std::size_t kStations = 41;
     CardFrame frame;
     frame.stations.resize(kStations);

@@ -19,19 +19,6 @@ constexpr std::uint32_t kAcross = 3;  // quads across a card
 
 constexpr float kRootClearance = 0.0018F;  // m
 
-/// What cards face away from: the middle of the roots lies inside the head.
-vec3 middleOfRoots(const Groom& groom) {
-    glm::dvec3 sum(0);
-    double count = 0;
-    for (std::uint32_t s = 0; s < groom.strandCount(); ++s) {
-        const auto strand = strandOf(groom, s);
-        if (strand.empty()) continue;
-        sum += glm::dvec3(strand.front());
-        count += 1;
-    }
-    return count > 0 ? vec3(sum / count) : vec3(0);
-}
-
 /// Rows lie closer together at the root, where the card turns off the scalp.
 float rowAt(std::uint32_t row, std::uint32_t segments) {
     return std::pow(static_cast<float>(row) / static_cast<float>(segments), 1.3F);
@@ -69,8 +56,7 @@ Vertex cardVertex(const CardFrame& frame, float v, float across) {
     return vertex;
 }
 
-void addCard(const CardFrame& frame, const CardAtlas& atlas, std::uint32_t card, std::uint32_t segments,
-             Geometry& cards) {
+void addCard(const CardFrame& frame, const CardAtlas& atlas, std::uint32_t card, std::uint32_t segments, Mesh& cards) {
     const auto first = static_cast<std::uint32_t>(cards.vertices.size());
     constexpr std::uint32_t columns = kAcross + 1;
     for (std::uint32_t row = 0; row <= segments; ++row) {
@@ -94,13 +80,13 @@ void addCard(const CardFrame& frame, const CardAtlas& atlas, std::uint32_t card,
             cards.indices.insert(cards.indices.end(), {a, b, e, a, e, d});
         }
     }
-    ++cards.strandCount;
+    ++cards.islandCount;
 }
 
 }  // namespace
 
-Geometry bakeCards(const Groom& groom, const CardsDescriptor& descriptor) {
-    Geometry cards;
+Mesh bakeCards(const Strands& groom, const CardsDescriptor& descriptor) {
+    Mesh cards;
     cards.name = groom.name + " cards";
     const auto groups = clusterStrands(groom, descriptor.cards, descriptor.seed);
     if (groups.empty()) return cards;

@@ -56,17 +56,11 @@ void moveCenters(const std::vector<Feature>& features, const std::vector<std::ui
 
 }  // namespace
 
-std::span<const glm::vec3> strandOf(const Groom& groom, std::uint32_t strand) {
-    const std::size_t first = groom.firstPoint[strand], end = groom.firstPoint[strand + 1];
-    if (end > groom.points.size() || end < first) return {};
-    return std::span(groom.points).subspan(first, end - first);
-}
-
-std::vector<std::vector<std::uint32_t>> clusterStrands(const Groom& groom, std::uint32_t count, std::uint32_t seed) {
+std::vector<std::vector<std::uint32_t>> clusterStrands(const Strands& groom, std::uint32_t count, std::uint32_t seed) {
     std::vector<std::uint32_t> strands;
     std::vector<Feature> features;
     for (std::uint32_t s = 0; s < groom.strandCount(); ++s) {
-        const auto strand = strandOf(groom, s);
+        const auto strand = groom.strand(s);
         if (strand.size() < 2) continue;
         strands.push_back(s);
         features.push_back(featureOf(strand));

@@ -10,9 +10,7 @@
 namespace pelage::hair {
 
 /// Indices of strands, grouped by k-means over root, middle and tip; at most `count` groups, none empty.
-std::vector<std::vector<std::uint32_t>> clusterStrands(const Groom& groom, std::uint32_t count, std::uint32_t seed);
-
-std::span<const glm::vec3> strandOf(const Groom& groom, std::uint32_t strand);
+std::vector<std::vector<std::uint32_t>> clusterStrands(const Strands& groom, std::uint32_t count, std::uint32_t seed);
 
 /// One cluster seen along its mean strand: stations evenly spaced from the first root to the last tip.
 struct CardFrame {
@@ -32,7 +30,7 @@ struct CardFrame {
 };
 
 /// `center` is what the card faces away from.
-CardFrame frameOf(const Groom& groom, std::span<const std::uint32_t> members, const glm::vec3& center);
+CardFrame frameOf(const Strands& groom, std::span<const std::uint32_t> members, const glm::vec3& center);
 
 /// The point `arc` m from the root; false before the root and beyond the tip.
 bool pointAtArc(std::span<const glm::vec3> strand, float arc, glm::vec3& out);

@@ -112,10 +112,10 @@ public:
         guidePoints_ = std::max(d_.pointsPerStrand, 24U);
     }
 
-    Groom make() {
-        Groom groom;
-        groom.defaultWidth = d_.width;
-        groom.firstPoint.push_back(0);
+    Strands make() {
+        Strands groom;
+        groom.width = d_.width;
+        groom.first.push_back(0);
         if (d_.strands == 0) return groom;
         const std::vector<Root> roots = scatterRoots(d_.strands, d_.seed);
         growGuides();
@@ -128,7 +128,7 @@ public:
                 const float t = static_cast<float>(i) / static_cast<float>(strand.size() - 1);
                 groom.widths.push_back(d_.width * (1.0F - 0.65F * t * t));
             }
-            groom.firstPoint.push_back(static_cast<std::uint32_t>(groom.points.size()));
+            groom.first.push_back(static_cast<std::uint32_t>(groom.points.size()));
         }
         return groom;
     }
@@ -231,9 +231,11 @@ const char* nameOf(Style style) {
 
 }  // namespace
 
-Groom makeGroom(const GroomDescriptor& descriptor) {
-    Groom groom = GroomMaker(descriptor).make();
+Strands makeGroom(const GroomDescriptor& descriptor) {
+    Strands groom = GroomMaker(descriptor).make();
     groom.name = nameOf(descriptor.style);
+    groom.center = headCenter();
+    groom.updateBounds();
     return groom;
 }
 

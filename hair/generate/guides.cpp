@@ -22,6 +22,8 @@ vec3 onSurface(const vec3& v, const vec3& normal) {
     return v - normal * glm::dot(v, normal);
 }
 
+/// Single precision, unlike unitOr(): the grooms of a seed are these very bits, and strands that slide over the head
+/// carry the least difference far.
 vec3 unit(const vec3& v, const vec3& fallback) {
     const float length = glm::length(v);
     return length > 1e-6F ? v / length : fallback;

@@ -91,13 +91,13 @@ Vertex skinVertex(vec3 p) {
 
 }  // namespace
 
-Geometry makeHead() {
+Mesh makeHead() {
     Grid g;
     g.x = planes(-0.24F, 0.24F, -0.0901F, 0.0901F, 0.0053F, 0.018F);
     g.y = planes(1.22F, 1.74F, 1.485F, 1.615F, 0.0050F, 0.018F);
     g.z = planes(-0.15F, 0.13F, -0.0351F, 0.119F, 0.0056F, 0.013F);
     g.sample();
-    Geometry head;
+    Mesh head;
     head.name = "head";
     head.isHair = false;
     std::vector<std::uint32_t> vertexOf(g.values.size(), kNone);  // by the cell's lowest corner

@@ -20,7 +20,7 @@ struct ScalpTriangle {
 }  // namespace
 
 std::vector<Root> scatterRoots(std::uint32_t count, std::uint32_t seed) {
-    const Geometry head = makeHead();
+    const Mesh head = makeHead();
     std::vector<ScalpTriangle> triangles;
     std::vector<double> areas;  // running sum
     double sum = 0;

@@ -49,7 +49,7 @@ std::vector<std::uint32_t> places(const std::vector<Vertex>& vertices) {
 
 /// Joins triangles across seams: those whose edges have the same two end positions. One common position is not enough,
 /// because separate cards often start at the same point of the scalp.
-void joinSeams(const Geometry& cards, Sets& sets) {
+void joinSeams(const Mesh& cards, Sets& sets) {
     const std::vector<std::uint32_t> place = places(cards.vertices);
     struct Edge {
         std::uint32_t low, high, vertex;
@@ -71,14 +71,14 @@ void joinSeams(const Geometry& cards, Sets& sets) {
 struct Corner {
     const Vertex &a, &b, &c;
 };
-Corner cornersOf(const Geometry& g, std::size_t triangle) {
+Corner cornersOf(const Mesh& g, std::size_t triangle) {
     const std::uint32_t* i = g.indices.data() + 3 * triangle;
     return {g.vertices[i[0]], g.vertices[i[1]], g.vertices[i[2]]};
 }
 
 }  // namespace
 
-void fillNormals(Geometry& cards) {
+void fillNormals(Mesh& cards) {
     std::vector<glm::dvec3> sums(cards.vertices.size(), glm::dvec3(0));
     for (std::size_t t = 0; t < cards.indices.size() / 3; ++t) {
         const auto [a, b, c] = cornersOf(cards, t);
@@ -93,7 +93,7 @@ void fillNormals(Geometry& cards) {
     }
 }
 
-std::uint32_t fillTangents(Geometry& cards, std::span<const glm::vec3> fallback) {
+std::uint32_t fillTangents(Mesh& cards, std::span<const glm::vec3> fallback) {
     std::vector<glm::dvec3> sums(cards.vertices.size(), glm::dvec3(0));
     for (std::size_t t = 0; t < cards.indices.size() / 3; ++t) {
         const auto [a, b, c] = cornersOf(cards, t);
@@ -128,7 +128,7 @@ std::uint32_t fillTangents(Geometry& cards, std::span<const glm::vec3> fallback)
     return without;
 }
 
-void fillIslands(Geometry& cards) {
+void fillIslands(Mesh& cards) {
     const std::size_t count = cards.vertices.size();
     Sets sets(count);
     std::vector<bool> used(count, false);
@@ -160,10 +160,10 @@ void fillIslands(Geometry& cards) {
         vertex.strandId = hashUnit(island);
         vertex.along = span > 0 ? glm::clamp((vertex.uv.y - range[island].x) / span, 0.0F, 1.0F) : 0.0F;
     }
-    cards.strandCount = static_cast<std::uint32_t>(range.size());
+    cards.islandCount = static_cast<std::uint32_t>(range.size());
 }
 
-bool turnRoundIfUpward(Geometry& cards) {
+bool turnRoundIfUpward(Mesh& cards) {
     // Mean height of the ends of each island. strandId tells islands apart: 24 bits, and a rare collision only merges
     // two votes.
     struct Ends {

@@ -24,6 +24,7 @@ Surface fetchSurface() {
     if (isStrand) s.normal = safeNormalize(s.normal - s.tangent * dot(s.normal, s.tangent), s.wo);
     if (dot(s.normal, s.wo) < 0.0) s.normal = -s.normal;
     s.color = material.baseColor;
+    if (isStrand) s.color *= v_color;
     s.alpha = isStrand ? v_coverage : 1.0;
     if (!isStrand && alphaMode == ALPHA_BLEND) s.alpha = texture(sampler2D(opacityMap, s_material), v_uv).a;
     if (useColorMap) s.color *= texture(sampler2D(colorMap, s_material), v_uv).rgb;

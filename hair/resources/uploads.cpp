@@ -15,42 +15,49 @@
 namespace pelage::hair {
 namespace {
 
-Result<rhi::Buffer> makeBuffer(const rhi::Device& device, const std::string& label, rhi::BufferUsage usage,
-                                std::span<const std::byte> bytes) {
-    auto buffer =
-        device.createBuffer({.label = label, .size = bytes.size(), .usage = usage | rhi::BufferUsage::CopyDst});
-    if (!buffer) return tl::unexpected(buffer.error());
-    if (auto written = device.queue().writeBuffer(*buffer, 0, bytes); !written) return tl::unexpected(written.error());
-    return *buffer;
+const void* keyOf(const Geometry& geometry) {
+    return std::visit([](const auto& held) -> const void* { return held.get(); }, geometry);
 }
 
 }  // namespace
 
-Result<const GpuGeometry*> Uploads::geometry(const std::shared_ptr<const Geometry>& source) {
-    if (const auto found = geometry_.find(source.get()); found != geometry_.end()) return &found->second;
+Result<const GpuGeometry*> Uploads::geometry(const Geometry& source) {
+    if (const auto found = geometry_.find(keyOf(source)); found != geometry_.end()) return &found->second;
     GpuGeometry result = {.source = source};
-    auto vertices = makeBuffer(device_, source->name + " vertices", rhi::BufferUsage::Vertex,
-                               std::as_bytes(std::span(source->vertices)));
+    const Strands* strands = strandsOf(source);
+    if (isEmpty(source)) {
+        if (strands != nullptr) result.strands.emplace();
+    } else if (strands != nullptr) {
+        auto uploaded = uploadStrands(device_, *strands);
+        if (!uploaded) return tl::unexpected(uploaded.error());
+        result.strands = std::move(*uploaded);
+    } else if (auto uploaded = uploadMesh(*meshOf(source), result); !uploaded) {
+        return tl::unexpected(uploaded.error());
+    }
+    return &geometry_.emplace(keyOf(source), std::move(result)).first->second;
+}
+
+Result<void> Uploads::uploadMesh(const Mesh& mesh, GpuGeometry& to) {
+    auto vertices = uploadBuffer(device_, mesh.name + " vertices", rhi::BufferUsage::Vertex,
+                                 std::as_bytes(std::span(mesh.vertices)));
     if (!vertices) return tl::unexpected(vertices.error());
-    auto indices = makeBuffer(device_, source->name + " indices", rhi::BufferUsage::Index,
-                              std::as_bytes(std::span(source->indices)));
+    auto indices =
+        uploadBuffer(device_, mesh.name + " indices", rhi::BufferUsage::Index, std::as_bytes(std::span(mesh.indices)));
     if (!indices) return tl::unexpected(indices.error());
-    result.vertices = *vertices;
-    result.indices = *indices;
-    if (!source->colorMap.empty()) {
-        auto view = upload(source->colorMap, source->name + " colour map");
+    to.vertices = *vertices;
+    to.indices = *indices;
+    to.indexCount = static_cast<std::uint32_t>(mesh.indices.size());
+    if (!mesh.colorMap.empty()) {
+        auto view = upload(mesh.colorMap, mesh.name + " colour map");
         if (!view) return tl::unexpected(view.error());
-        result.colorMap = *view;
+        to.colorMap = *view;
     }
-    if (!source->strandIdMap.empty()) {
-        auto view = upload(source->strandIdMap, source->name + " strand-ID map");
+    if (!mesh.strandIdMap.empty()) {
+        auto view = upload(mesh.strandIdMap, mesh.name + " strand-ID map");
         if (!view) return tl::unexpected(view.error());
-        result.strandIdMap = *view;
+        to.strandIdMap = *view;
     }
-    double width = 0;
-    for (const Vertex& vertex : source->vertices) width += vertex.width;
-    result.meanWidth = source->vertices.empty() ? 0.0F : static_cast<float>(width / double(source->vertices.size()));
-    return &geometry_.emplace(source.get(), std::move(result)).first->second;
+    return {};
 }
 
 Result<rhi::TextureView> Uploads::texture(const std::string& reference, bool srgb) {
@@ -168,7 +175,9 @@ Result<rhi::Texture> Uploads::irradiance(const Environment& environment) {
 }
 
 void Uploads::collect() {
-    std::erase_if(geometry_, [](const auto& entry) { return entry.second.source.use_count() == 1; });
+    std::erase_if(geometry_, [](const auto& entry) {
+        return std::visit([](const auto& held) { return held.use_count() <= 1; }, entry.second.source);
+    });
 }
 
 }  // namespace pelage::hair

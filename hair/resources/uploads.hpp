@@ -2,6 +2,8 @@
 // Geometry and textures on the device, made once and kept.
 #pragma once
 
+#include "strands.hpp"
+
 #include <pelage/hair/geometry.hpp>
 #include <pelage/hair/scene.hpp>
 #include <pelage/rhi/rhi.hpp>
@@ -9,22 +11,26 @@
 #include <deque>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 
 namespace pelage::hair {
 
 struct GpuGeometry {
-    std::shared_ptr<const Geometry> source = {};
-    rhi::Buffer vertices = {}, indices = {};
+    Geometry source = {};
     rhi::TextureView colorMap = {}, strandIdMap = {};  // empty when the asset has none
-    float meanWidth = 0;                               // m, of strands
+    rhi::Buffer vertices = {}, indices = {};           // of a mesh
+    std::uint32_t indexCount = 0;
+    std::optional<GpuStrands> strands = {};
+
+    bool empty() const { return strands ? strands->pieceCount == 0 : indexCount == 0; }
 };
 
 class Uploads {
 public:
     explicit Uploads(rhi::Device device) : device_(std::move(device)) {}
 
-    Result<const GpuGeometry*> geometry(const std::shared_ptr<const Geometry>& source);
+    Result<const GpuGeometry*> geometry(const Geometry& source);
     /// "builtin.white", "builtin.grey", "builtin.black", a moment table by name, or the path of an image.
     Result<rhi::TextureView> texture(const std::string& reference, bool srgb);
     /// A 16 x 16 cube of irradiance, RGBA16Float; rewritten only when the environment changed.
@@ -37,7 +43,9 @@ private:
     Result<rhi::TextureView> upload(const Image8& image, const std::string& label);
 
     rhi::Device device_;
-    std::map<const Geometry*, GpuGeometry> geometry_;
+    Result<void> uploadMesh(const Mesh& mesh, GpuGeometry& to);
+
+    std::map<const void*, GpuGeometry> geometry_;  // by the mesh or the strands
     std::map<std::string, rhi::TextureView> textures_;
     std::deque<std::string> momentTables_;  // keys of textures_, oldest first
     rhi::Texture irradiance_;

@@ -8,16 +8,33 @@
 
 namespace pelage::hair {
 
+bool boundsOf(const Object& object, glm::vec3& low, glm::vec3& high) {
+    if (!boundsOf(object.geometry, low, high)) return false;
+    const MovedPoints& moved = object.moved;
+    if (!moved.given() || strandsOf(object.geometry) == nullptr) return true;
+    if (moved.boundsMin != moved.boundsMax) {
+        low = moved.boundsMin;
+        high = moved.boundsMax;
+    } else if (!moved.points.empty()) {
+        low = high = moved.points.front();
+        for (const glm::vec3& p : moved.points) {
+            low = glm::min(low, p);
+            high = glm::max(high, p);
+        }
+    }
+    return true;
+}
+
 void bounds(const Scene& scene, bool hairOnly, glm::vec3& low, glm::vec3& high) {
     low = glm::vec3(std::numeric_limits<float>::max());
     high = -low;
     bool found = false;
     for (const Object& object : scene.objects) {
-        if (!object.geometry || object.geometry->vertices.empty() || (hairOnly && !object.geometry->isHair)) continue;
+        glm::vec3 from, to;
+        if ((hairOnly && !isHair(object.geometry)) || !boundsOf(object, from, to)) continue;
         for (int corner = 0; corner < 8; ++corner) {
-            const glm::vec3 local = {(corner & 1) != 0 ? object.geometry->boundsMax.x : object.geometry->boundsMin.x,
-                                     (corner & 2) != 0 ? object.geometry->boundsMax.y : object.geometry->boundsMin.y,
-                                     (corner & 4) != 0 ? object.geometry->boundsMax.z : object.geometry->boundsMin.z};
+            const glm::vec3 local = {(corner & 1) != 0 ? to.x : from.x, (corner & 2) != 0 ? to.y : from.y,
+                                     (corner & 4) != 0 ? to.z : from.z};
             const glm::vec3 world = glm::vec3(object.transform * glm::vec4(local, 1.0F));
             low = glm::min(low, world);
             high = glm::max(high, world);

@@ -172,7 +172,7 @@ private:
         return wanted;
     }
 
-    std::shared_ptr<const Geometry> geometryOf(const json::Value& object) {
+    std::optional<Geometry> geometryOf(const json::Value& object) {
         const json::Value* asset = object.find("asset");
         const json::Value* generate = object.find("generate");
         if ((asset == nullptr) == (generate == nullptr)) {
@@ -182,7 +182,7 @@ private:
                     (asset ? "both \"asset\" and \"generate\"" : "neither \"asset\" nor \"generate\"") +
                     ", expected exactly one",
                 asset ? "remove one of them" : "add \"asset\": \"file.glb\" or \"generate\": { \"kind\": \"groom\" }");
-            return nullptr;
+            return std::nullopt;
         }
         const std::uint32_t subdivisions = uintOr(object, "subdivisions", 1);
         // Objects with the same source share one geometry, and so one upload.
@@ -192,7 +192,7 @@ private:
         auto loaded = parts::loadGeometry(relative(asset->string), subdivisions, result_.notes);
         if (!loaded) {
             adopt(loaded.error(), asset->place);
-            return nullptr;
+            return std::nullopt;
         }
         return geometries_[key] = *loaded;
     }
@@ -205,7 +205,7 @@ private:
         if (!parsed) return adopt(parsed.error(), name ? name->place : value.place);
         result_.notes.append(parsed->warnings);
         Object object{
-            .name = value.find("name")->string, .geometry = geometry, .material = std::move(parsed->material)};
+            .name = value.find("name")->string, .geometry = *geometry, .material = std::move(parsed->material)};
         if (const json::Value* set = value.find("set")) readOverrides(*set, object.material);
         if (const json::Value* transform = value.find("transform")) object.transform = transformOf(*transform);
         result_.scene.objects.push_back(std::move(object));
@@ -335,7 +335,7 @@ private:
     const json::Document& document_;
     Library& library_;
     fs::path directory_;
-    std::map<std::string, std::shared_ptr<const Geometry>> geometries_;
+    std::map<std::string, Geometry> geometries_;
     SceneFile result_;
     Diagnostics faults_;
 };
@@ -366,7 +366,7 @@ Result<SceneFile> sceneFromAsset(const std::string& path, const std::string& mat
     SceneFile file;
     auto geometry = parts::loadGeometry(path, 1, file.notes);
     if (!geometry) return tl::unexpected(geometry.error());
-    auto parsed = library.material(material.empty() ? parts::defaultMaterial(**geometry) : material);
+    auto parsed = library.material(material.empty() ? parts::defaultMaterial(*geometry) : material);
     if (!parsed) return tl::unexpected(parsed.error());
     file.notes.append(parsed->warnings);
 

@@ -35,8 +35,9 @@ layout(constant_id = 14) const bool chiangColor = false;
 layout(constant_id = 10) const int attenuationModel = ATTENUATION_TAFURI_H0;
 
 // Set by the renderer, not by a material.
-layout(constant_id = 20) const bool isStrand = false;  // line geometry: coverage comes from the projected width
+layout(constant_id = 20) const bool isStrand = false;  // coverage comes from the projected width
 layout(constant_id = 21) const int sampleCount = 1;    // of the target
 layout(constant_id = 22) const bool isLightView = false;  // drawn into the shadow map of a light
 // 23 to 25: lighting/light.glsl
+layout(constant_id = 26) const int subdivisions = 1;  // of strands: drawn segments between two points
 #endif

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
+// Meshes: cards and skin. Strands have strands.vert in its place.
 #version 450
 #extension GL_GOOGLE_include_directive : require
-#include "shaders/options.glsl"
 #include "shaders/frame.glsl"
 #include "shaders/object.glsl"
 #define VARYING out
@@ -11,7 +11,7 @@ layout(location = 0) in vec3 a_position;
 layout(location = 1) in vec3 a_normal;
 layout(location = 2) in vec3 a_tangent;
 layout(location = 3) in vec2 a_uv;
-layout(location = 4) in vec3 a_strand;  // id, along, width in m
+layout(location = 4) in vec2 a_strand;  // id, along
 
 void main() {
     precise vec4 world = object.model * vec4(a_position, 1.0);
@@ -23,11 +23,8 @@ void main() {
     v_normal = mat3(object.normalMatrix) * a_normal;
     v_tangent = mat3(object.model) * a_tangent;
     v_uv = a_uv;
-    v_strand = a_strand.xy;
+    v_strand = a_strand;
     v_object = a_position;
     v_coverage = 1.0;
-    if (isStrand) {
-        float drawn = isLightView ? object.lineWidth.y : object.lineWidth.x;
-        v_coverage = clamp(a_strand.z / (metresPerPixel(world.xyz) * drawn), 0.0, 1.0);
-    }
+    v_color = vec3(1.0);
 }

@@ -81,6 +81,10 @@ private:
     void beginLabel(const char* label);
     void endLabel();
     void beginRendering(const RenderPassPacket& pass);
+    void startRendering(const RenderPassPacket& pass, bool goesOn);
+    void draw(const packet::Draw& p);
+    /// Toggle drawInBatches: room for this many vertices more, after an interruption where there was none.
+    void makeRoom(std::uint64_t vertices);
     void resetQuery(QuerySetObject& set, std::uint32_t index);
     void resolveQueries(const packet::ResolveQueries& p);
 
@@ -90,6 +94,8 @@ private:
     CommandBuffer::Counters counters_ = {};
     BarrierBatch& batch_;
     bool timestampOpen_ = false, hostReads_ = false;
+    const RenderPassPacket* pass_ = nullptr;  // the one that is being replayed
+    std::uint64_t drawn_ = 0;                 // vertices since its last interruption
 };
 
 }  // namespace pelage::rhi::detail

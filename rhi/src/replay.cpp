@@ -4,6 +4,8 @@
 #include "recording.hpp"
 #include "transient_heap.hpp"
 
+#include <algorithm>
+
 namespace pelage::rhi::detail {
 
 void Replay::flushBarriers() {
@@ -34,19 +36,70 @@ void Replay::resetQuery(QuerySetObject& set, std::uint32_t index) {
     set.written[index] = true;
 }
 
+namespace {
+/// About 30 MB of llvmpipe's binned triangles.
+constexpr std::uint64_t batchVertices = std::uint64_t{1} << 16;
+}  // namespace
+
+void Replay::makeRoom(std::uint64_t vertices) {
+    if (!device_.toggles.drawInBatches) return;
+    if (drawn_ > 0 && drawn_ + vertices > batchVertices) {
+        const auto& f = device_.functions;
+        f.vkCmdEndRendering(commands_);
+        VkMemoryBarrier2 all = {VK_STRUCTURE_TYPE_MEMORY_BARRIER_2};
+        all.srcStageMask = all.dstStageMask = VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT;
+        all.srcAccessMask = all.dstAccessMask = VK_ACCESS_2_MEMORY_READ_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
+        VkDependencyInfo dependency = {VK_STRUCTURE_TYPE_DEPENDENCY_INFO};
+        dependency.memoryBarrierCount = 1;
+        dependency.pMemoryBarriers = &all;
+        f.vkCmdPipelineBarrier2(commands_, &dependency);
+        ++counters_.barriers;
+        startRendering(*pass_, true);
+        drawn_ = 0;
+    }
+    drawn_ += vertices;
+}
+
+void Replay::draw(const packet::Draw& p) {
+    const std::uint64_t whole = std::uint64_t{p.vertices} * p.instances;
+    if (!device_.toggles.drawInBatches || whole <= batchVertices) {
+        makeRoom(whole);
+        device_.functions.vkCmdDraw(commands_, p.vertices, p.instances, p.firstVertex, p.firstInstance);
+        return;
+    }
+    const auto most = static_cast<std::uint32_t>(std::max<std::uint64_t>(batchVertices / p.vertices, 1));
+    for (std::uint32_t at = 0; at < p.instances; at += most) {
+        const std::uint32_t count = std::min(most, p.instances - at);
+        makeRoom(std::uint64_t{p.vertices} * count);
+        device_.functions.vkCmdDraw(commands_, p.vertices, count, p.firstVertex, p.firstInstance + at);
+    }
+}
+
 void Replay::beginRendering(const RenderPassPacket& pass) {
-    const auto attachment = [](const AttachmentPacket& a, VkImageLayout layout) {
+    if (pass.statistics != nullptr) {
+        resetQuery(*pass.statistics, pass.statisticsIndex);
+        device_.functions.vkCmdBeginQuery(commands_, pass.statistics->handle, pass.statisticsIndex, 0);
+    }
+    pass_ = &pass;
+    drawn_ = 0;
+    startRendering(pass, false);
+}
+
+/// `goesOn`: after an interruption, with what the attachments held before it.
+void Replay::startRendering(const RenderPassPacket& pass, bool goesOn) {
+    const bool batches = device_.toggles.drawInBatches;
+    const auto attachment = [&](const AttachmentPacket& a, VkImageLayout layout) {
         VkRenderingAttachmentInfo info = {VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO};
         if (a.view == nullptr) return info;
         info.imageView = a.view->handle;
         info.imageLayout = layout;
-        info.loadOp = a.load == LoadOp::Load    ? VK_ATTACHMENT_LOAD_OP_LOAD
-                      : a.load == LoadOp::Clear ? VK_ATTACHMENT_LOAD_OP_CLEAR
-                                                : VK_ATTACHMENT_LOAD_OP_DONT_CARE;
+        info.loadOp = a.load == LoadOp::Load || goesOn ? VK_ATTACHMENT_LOAD_OP_LOAD
+                      : a.load == LoadOp::Clear        ? VK_ATTACHMENT_LOAD_OP_CLEAR
+                                                       : VK_ATTACHMENT_LOAD_OP_DONT_CARE;
         // Storing what was only read would count as a write of it.
-        info.storeOp = a.readOnly                  ? VK_ATTACHMENT_STORE_OP_NONE
-                       : a.store == StoreOp::Store ? VK_ATTACHMENT_STORE_OP_STORE
-                                                   : VK_ATTACHMENT_STORE_OP_DONT_CARE;
+        info.storeOp = a.readOnly                             ? VK_ATTACHMENT_STORE_OP_NONE
+                       : a.store == StoreOp::Store || batches ? VK_ATTACHMENT_STORE_OP_STORE
+                                                              : VK_ATTACHMENT_STORE_OP_DONT_CARE;
         info.clearValue = a.clear;
         if (a.resolve != nullptr) {
             const auto numeric = formatInfo(a.view->texture->descriptor.format).numeric;
@@ -57,7 +110,6 @@ void Replay::beginRendering(const RenderPassPacket& pass) {
         }
         return info;
     };
-    if (pass.statistics != nullptr) resetQuery(*pass.statistics, pass.statisticsIndex);
     InlineVector<VkRenderingAttachmentInfo, maxColors> colors;
     for (const auto& c : pass.colors) colors.push_back(attachment(c, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL));
     VkRenderingAttachmentInfo depth = {};
@@ -71,8 +123,6 @@ void Replay::beginRendering(const RenderPassPacket& pass) {
                                                              : VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL);
         info.pDepthAttachment = &depth;
     }
-    if (pass.statistics != nullptr)
-        device_.functions.vkCmdBeginQuery(commands_, pass.statistics->handle, pass.statisticsIndex, 0);
     device_.functions.vkCmdBeginRendering(commands_, &info);
 }
 
@@ -147,8 +197,9 @@ void Replay::play(const P& p) {
     } else if constexpr (std::is_same_v<P, LineWidth>) {
         f.vkCmdSetLineWidth(commands_, p.value);
     } else if constexpr (std::is_same_v<P, Draw>) {
-        f.vkCmdDraw(commands_, p.vertices, p.instances, p.firstVertex, p.firstInstance);
+        draw(p);
     } else if constexpr (std::is_same_v<P, DrawIndexed>) {
+        makeRoom(std::uint64_t{p.indices} * p.instances);
         f.vkCmdDrawIndexed(commands_, p.indices, p.instances, p.firstIndex, p.baseVertex, p.firstInstance);
     } else if constexpr (std::is_same_v<P, Dispatch>) {
         f.vkCmdDispatch(commands_, p.x, p.y, p.z);

@@ -65,12 +65,12 @@ Result<void> run(const Arguments& arguments) {
     auto tree = library.passTree("hair_frame");
     if (!skin || !tree) return tl::unexpected(skin ? tree.error() : skin.error());
 
-    hair::Groom groom = hair::makeGroom({.style = hair::Style::Wavy, .strands = 12000, .width = 350e-6F});
+    hair::Strands groom = hair::makeGroom({.style = hair::Style::Wavy, .strands = 12000, .width = 350e-6F});
     hair::Scene scene;
     scene.objects.push_back(
-        {.name = "head", .geometry = std::make_shared<hair::Geometry>(hair::makeHead()), .material = skin->material});
+        {.name = "head", .geometry = std::make_shared<hair::Mesh>(hair::makeHead()), .material = skin->material});
     scene.objects.push_back({.name = "hair",
-                             .geometry = std::make_shared<hair::Geometry>(hair::toLines(groom, 1, hair::headCenter())),
+                             .geometry = std::make_shared<hair::Strands>(std::move(groom)),
                              .material = material->material});
     glm::vec3 low, high;
     hair::bounds(scene, true, low, high);

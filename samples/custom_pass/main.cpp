@@ -77,12 +77,11 @@ Result<void> run(Arguments arguments) {
     }
 
     hair::Scene scene;
-    const hair::Groom groom = hair::makeGroom({.style = hair::Style::Curly, .strands = 3000, .width = 600e-6F});
+    hair::Strands groom = hair::makeGroom({.style = hair::Style::Curly, .strands = 3000, .width = 600e-6F});
     scene.objects.push_back(
-        {.name = "head", .geometry = std::make_shared<hair::Geometry>(hair::makeHead()), .material = skin->material});
-    scene.objects.push_back({.name = "hair",
-                             .geometry = std::make_shared<hair::Geometry>(hair::toLines(groom, 1, hair::headCenter())),
-                             .material = blond->material});
+        {.name = "head", .geometry = std::make_shared<hair::Mesh>(hair::makeHead()), .material = skin->material});
+    scene.objects.push_back(
+        {.name = "hair", .geometry = std::make_shared<hair::Strands>(std::move(groom)), .material = blond->material});
     glm::vec3 low, high;
     hair::bounds(scene, true, low, high);
     scene.lights = hair::portraitLights(low, high);

@@ -45,8 +45,7 @@ public:
         depth_ = need(vulkan::wrapImage(device_, c.depth, image));
         renderer_ = need(hair::Renderer::create({device_, need(library_.passTree("hair_host"))}));
         auto groom = hair::makeGroom({.style = hair::Style::Wavy});
-        groom.defaultWidth = hair::coveringWidth(groom);
-        auto strands = std::make_shared<hair::Geometry>(hair::toLines(groom, 1, hair::headCenter()));
+        auto strands = std::make_shared<hair::Strands>(std::move(groom));
         scene_.objects.push_back({"hair", strands, need(library_.material("brown")).material});
         settings_ = {.width = c.extent.width, .height = c.extent.height};
         settings_.imports = {{"SceneColor", color_}, {"SceneDepth", depth_}};

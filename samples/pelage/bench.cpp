@@ -123,7 +123,7 @@ int bench(const BenchOptions& options) {
         auto material = materialOf(contender, library);
         if (!material) return report(material.error());
         for (hair::Object& object : samples.scene.objects) {
-            if (object.geometry->isHair) object.material = *material;
+            if (hair::isHair(object.geometry)) object.material = *material;
         }
         all.push_back(std::move(samples));
     }

@@ -48,7 +48,7 @@ Result<void> applyOverrides(hair::Scene& scene, const std::vector<std::string>& 
         auto assignment = parseAssignment(text, "--set");
         if (!assignment) return tl::unexpected(assignment.error());
         for (hair::Object& object : scene.objects) {
-            if (!object.geometry->isHair) continue;
+            if (!hair::isHair(object.geometry)) continue;
             const Diagnostics found = object.material.setFromText(assignment->first, assignment->second);
             if (found.hasErrors()) return tl::unexpected(found);
             notes.append(found);
@@ -103,7 +103,7 @@ Result<void> applyMaterial(hair::Scene& scene, const std::string& material, hair
     auto parsed = library.material(material);
     if (!parsed) return tl::unexpected(parsed.error());
     for (hair::Object& object : scene.objects) {
-        if (object.geometry->isHair) object.material = parsed->material;
+        if (hair::isHair(object.geometry)) object.material = parsed->material;
     }
     return {};
 }

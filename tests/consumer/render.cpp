@@ -64,10 +64,10 @@ int main() {
     auto renderer = hair::Renderer::create({.device = *device, .tree = *tree});
     if (!renderer) return failed(renderer.error().text());
 
-    const hair::Groom groom = hair::makeGroom({.strands = 400, .pointsPerStrand = 12, .width = 0.002F});
+    hair::Strands groom = hair::makeGroom({.strands = 400, .pointsPerStrand = 12, .width = 0.002F});
     hair::Scene scene;
     scene.objects.push_back({.name = "hair",
-                             .geometry = std::make_shared<const hair::Geometry>(toLines(groom, 1, hair::headCenter())),
+                             .geometry = std::make_shared<const hair::Strands>(std::move(groom)),
                              .material = material->material});
     glm::vec3 low, high;
     hair::bounds(scene, true, low, high);

@@ -45,12 +45,11 @@ Outcome frames(const std::string& treeName, std::optional<std::uint64_t> drop = 
         auto groom = hair::makeGroom({.style = hair::Style::Wavy, .strands = 40, .pointsPerStrand = 6});
         hair::Scene scene;
         const auto add = [&](const char* name, hair::Geometry geometry, const char* preset) {
-            scene.objects.push_back({.name = name,
-                                     .geometry = std::make_shared<hair::Geometry>(std::move(geometry)),
-                                     .material = good(library.material(preset)).material});
+            scene.objects.push_back(
+                {.name = name, .geometry = std::move(geometry), .material = good(library.material(preset)).material});
         };
-        add("strands", hair::toLines(groom, 1, hair::headCenter()), "brown");
-        add("more", hair::toLines(groom, 1, hair::headCenter()), "blond");
+        add("strands", std::make_shared<hair::Strands>(groom), "brown");
+        add("more", std::make_shared<hair::Strands>(groom), "blond");
         scene.lights = {{}, {.direction = {1, -1, 0}}};
         hair::FrameSettings settings = {.width = 64, .height = 64};
         const auto image = [&](rhi::TextureFormat format, const char* label) {

@@ -28,7 +28,7 @@ GroomDescriptor smallGroom(Style style, std::uint32_t seed = 1) {
 }
 
 TEST(Head, IsAClosedMannequinOfTheStatedSize) {
-    const Geometry head = makeHead();
+    const Mesh head = makeHead();
     expectSound(head);
     EXPECT_FALSE(head.isHair);
     EXPECT_NEAR(head.boundsMax.y, 1.72F, 0.003F);
@@ -62,7 +62,7 @@ TEST(Head, IsAClosedMannequinOfTheStatedSize) {
 class Grooms : public ::testing::TestWithParam<Style> {};
 
 TEST_P(Grooms, SameSeedSameBytesOtherSeedOtherHair) {
-    const Groom a = makeGroom(smallGroom(GetParam())), b = makeGroom(smallGroom(GetParam()));
+    const Strands a = makeGroom(smallGroom(GetParam())), b = makeGroom(smallGroom(GetParam()));
     EXPECT_EQ(hashOf(a.points), hashOf(b.points));
     EXPECT_EQ(hashOf(a.widths), hashOf(b.widths));
     EXPECT_NE(hashOf(a.points), hashOf(makeGroom(smallGroom(GetParam(), 2)).points));
@@ -72,24 +72,24 @@ TEST_P(Grooms, StrandsStayOutsideTheHeadAndStartOnTheScalp) {
     for (const float length : {0.08F, 0.26F, 0.45F}) {
         GroomDescriptor d = smallGroom(GetParam());
         d.length = length;
-        const Groom groom = makeGroom(d);
+        const Strands groom = makeGroom(d);
         ASSERT_EQ(groom.strandCount(), d.strands);
         expectSound(groom);
         for (const glm::vec3& p : groom.points) ASSERT_GT(headDistance(p), -0.001F);
         for (std::uint32_t s = 0; s < groom.strandCount(); ++s) {
-            ASSERT_NEAR(headDistance(groom.points[groom.firstPoint[s]]), 0.0F, 0.0005F);
-            ASSERT_TRUE(isScalp(groom.points[groom.firstPoint[s]]));
+            ASSERT_NEAR(headDistance(groom.points[groom.first[s]]), 0.0F, 0.0005F);
+            ASSERT_TRUE(isScalp(groom.points[groom.first[s]]));
         }
     }
 }
 
 TEST_P(Grooms, LengthsLieAroundTheMean) {
     const GroomDescriptor d = smallGroom(GetParam());
-    const Groom groom = makeGroom(d);
+    const Strands groom = makeGroom(d);
     double sum = 0;
     for (std::uint32_t s = 0; s < groom.strandCount(); ++s) {
         float length = 0;
-        for (std::uint32_t i = groom.firstPoint[s] + 1; i < groom.firstPoint[s + 1]; ++i) {
+        for (std::uint32_t i = groom.first[s] + 1; i < groom.first[s + 1]; ++i) {
             length += glm::length(groom.points[i] - groom.points[i - 1]);
         }
         // A ponytail's strands also have their way to the tie, at most 25 cm.
@@ -108,9 +108,9 @@ TEST_P(Grooms, ExactlyThePointsAskedFor) {
         GroomDescriptor d = smallGroom(GetParam());
         d.strands = 50;
         d.pointsPerStrand = points;
-        const Groom groom = makeGroom(d);
+        const Strands groom = makeGroom(d);
         EXPECT_EQ(groom.points.size(), std::size_t{50} * std::max(points, 2U));
-        expectSound(toLines(groom, 2, headCenter()));
+        expectSound(groom);
     }
     GroomDescriptor none;
     none.strands = 0;
@@ -118,10 +118,10 @@ TEST_P(Grooms, ExactlyThePointsAskedFor) {
 }
 
 TEST_P(Grooms, HairHangs) {
-    const Groom groom = makeGroom(smallGroom(GetParam()));
+    const Strands groom = makeGroom(smallGroom(GetParam()));
     double drop = 0;
     for (std::uint32_t s = 0; s < groom.strandCount(); ++s) {
-        drop += static_cast<double>(groom.points[groom.firstPoint[s]].y - groom.points[groom.firstPoint[s + 1] - 1].y);
+        drop += static_cast<double>(groom.points[groom.first[s]].y - groom.points[groom.first[s + 1] - 1].y);
     }
     EXPECT_GT(drop / groom.strandCount(), 0.08);
 }
@@ -149,13 +149,17 @@ private:
 TEST_P(Grooms, CardsCoverAboutWhatStrandsCover) {
     GroomDescriptor d = smallGroom(GetParam());
     d.strands = 12000;
-    const Groom groom = makeGroom(d);
-    const Geometry cards = bakeCards(groom, {});
+    const Strands groom = makeGroom(d);
+    const Mesh cards = bakeCards(groom, {});
     expectSound(cards);
     for (const bool side : {false, true}) {
         Silhouette strands(side), strips(side);
-        const Geometry lines = toLines(groom, 4, headCenter());
-        for (const Vertex& v : lines.vertices) strands.mark(v.position);
+        for (std::uint32_t s = 0; s < groom.strandCount(); ++s) {
+            const auto points = groom.strand(s);
+            for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+                for (const float t : {0.0F, 0.25F, 0.5F, 0.75F, 1.0F}) strands.mark(curveAt(points, i, t));
+            }
+        }
         for (std::size_t t = 0; t < cards.indices.size(); t += 3) {
             const Vertex &a = cards.vertices[cards.indices[t]], &b = cards.vertices[cards.indices[t + 1]],
                          &c = cards.vertices[cards.indices[t + 2]];
@@ -179,7 +183,7 @@ TEST_P(Grooms, CardsCoverAboutWhatStrandsCover) {
 }
 
 TEST_P(Grooms, CardsLeadFromRootToTipAndFaceOutward) {
-    const Geometry cards = bakeCards(makeGroom(smallGroom(GetParam())), {});
+    const Mesh cards = bakeCards(makeGroom(smallGroom(GetParam())), {});
     std::size_t outward = 0, onHead = 0;
     for (const Vertex& v : cards.vertices) {
         if (v.position.z < -0.115F) continue;  // the tail of a ponytail also has a side towards the head
@@ -217,7 +221,7 @@ INSTANTIATE_TEST_SUITE_P(All, Grooms, ::testing::Values(Style::Straight, Style::
                          styleName);
 
 TEST(Cards, CellsDoNotTouchAndIdsAreEverywhere) {
-    const Geometry cards = bakeCards(makeGroom(smallGroom(Style::Straight)), {});
+    const Mesh cards = bakeCards(makeGroom(smallGroom(Style::Straight)), {});
     EXPECT_EQ(cards.colorMap.width, 1024U);
     EXPECT_EQ(cards.strandIdMap.channels, 1U);
     const std::size_t empty = static_cast<std::size_t>(
@@ -229,14 +233,14 @@ TEST(Cards, CellsDoNotTouchAndIdsAreEverywhere) {
 }
 
 TEST(Cards, OddRequestsAreServed) {
-    EXPECT_TRUE(bakeCards(Groom{}, {}).vertices.empty());
-    const Groom groom = makeGroom(smallGroom(Style::Wavy));
+    EXPECT_TRUE(bakeCards(Strands{}, {}).vertices.empty());
+    const Strands groom = makeGroom(smallGroom(Style::Wavy));
     expectSound(bakeCards(groom, {.cards = 1, .textureSize = 1, .segments = 0, .seed = 3}));
     expectSound(bakeCards(groom, {.cards = 5000, .textureSize = 300, .segments = 3, .seed = 3}));
     expectSound(bakeCards(sampleGroom(), {}));
-    Groom point;  // strands without length do not come from the readers, but may come from a host
+    Strands point;  // strands without length do not come from the readers, but may come from a host
     point.points.assign(4, {1, 1, 1});
-    point.firstPoint = {0, 2, 4};
+    point.first = {0, 2, 4};
     expectSound(bakeCards(point, {}));
     EXPECT_TRUE(bakeCards(groom, {.cards = 0}).vertices.empty());
 }

@@ -16,7 +16,7 @@ protected:
         static hair::Renderer made = makeRenderer();
         return made;
     }
-    void check(const std::shared_ptr<const hair::Geometry>& geometry, const std::string& preset,
+    void check(const hair::Geometry& geometry, const std::string& preset,
                const std::vector<std::pair<std::string, std::string>>& values, const std::string& name) {
         hair::Scene scene = portrait(geometry, material(preset, values));
         expectGolden(render(renderer(), scene), name);

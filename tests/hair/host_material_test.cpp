@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT
 // Material types and shaders of a host's own: they are drawn, and what does not fit together is said.
 #include "gpu.hpp"
-#include "pictures.hpp"
 #include "material/check.hpp"
+#include "pictures.hpp"
 
 #include <pelage/hair/functors.hpp>
 

@@ -45,16 +45,17 @@ inline Bytes tfxFile(std::uint32_t strands = 4, std::uint32_t points = 5) {
     return b;
 }
 
-inline Groom sampleGroom() {
-    Groom g;
-    g.firstPoint = {0};
+inline Strands sampleGroom() {
+    Strands g;
+    g.first = {0};
     for (std::uint32_t s = 0; s < 5; ++s) {
         for (std::uint32_t i = 0; i < 3 + s; ++i) {
             g.points.push_back({0.01F * static_cast<float>(s), 1.0F - 0.03F * static_cast<float>(i), 0.002F});
             g.widths.push_back(90e-6F - 1e-6F * static_cast<float>(i));
         }
-        g.firstPoint.push_back(static_cast<std::uint32_t>(g.points.size()));
+        g.first.push_back(static_cast<std::uint32_t>(g.points.size()));
     }
+    g.updateBounds();
     return g;
 }
 
@@ -155,7 +156,7 @@ inline void damage(const Bytes& good, int rounds, const std::function<void(std::
     }
 }
 
-inline void expectSound(const Geometry& g) {
+inline void expectSound(const Mesh& g) {
     const auto finite = [](const glm::vec3& v) {
         return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
     };
@@ -170,12 +171,21 @@ inline void expectSound(const Geometry& g) {
     for (const std::uint32_t i : g.indices) ASSERT_LT(i, g.vertices.size());
 }
 
-inline void expectSound(const Groom& g) {
-    ASSERT_EQ(g.firstPoint.front(), 0U);
-    ASSERT_EQ(g.firstPoint.back(), g.points.size());
+inline void expectSound(const Strands& g) {
+    ASSERT_EQ(g.first.front(), 0U);
+    ASSERT_EQ(g.first.back(), g.points.size());
     ASSERT_TRUE(g.widths.empty() || g.widths.size() == g.points.size());
-    for (std::uint32_t s = 0; s < g.strandCount(); ++s) ASSERT_GE(g.firstPoint[s + 1], g.firstPoint[s] + 2);
-    for (const glm::vec3& p : g.points) ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
+    ASSERT_TRUE(g.colors.empty() || g.colors.size() == g.points.size());
+    ASSERT_TRUE(g.ids.empty() || g.ids.size() == g.strandCount());
+    for (std::uint32_t s = 0; s < g.strandCount(); ++s) ASSERT_GE(g.first[s + 1], g.first[s] + 2);
+    glm::vec3 low = g.points.front(), high = low;
+    for (const glm::vec3& p : g.points) {
+        ASSERT_TRUE(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.z));
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    ASSERT_EQ(g.boundsMin, low);
+    ASSERT_EQ(g.boundsMax, high);
 }
 
 }  // namespace pelage::hair::testing

@@ -11,7 +11,7 @@
 namespace pelage::hair::testing {
 namespace {
 
-Result<Geometry> readWith(const std::function<void(GlbFile&)>& change) {
+Result<Mesh> readWith(const std::function<void(GlbFile&)>& change) {
     GlbFile file;
     change(file);
     return parseGltf(file.bytes(), "x.glb");
@@ -21,7 +21,7 @@ TEST(Gltf, StrandDirectionIsDownTheTexture) {
     const auto cards = parseGltf(GlbFile().bytes(), "x.glb");
     ASSERT_TRUE(cards) << cards.error().first().text;
     EXPECT_EQ(cards->indices.size(), 12U);
-    EXPECT_EQ(cards->strandCount, 1U);
+    EXPECT_EQ(cards->islandCount, 1U);
     EXPECT_EQ(cards->colorMap.width, 2U);
     expectSound(*cards);
     for (const Vertex& v : cards->vertices) {
@@ -60,13 +60,13 @@ TEST(Gltf, SeamsDoNotSplitIslandsAndSeparateCardsStaySeparate) {
     file.json["meshes"][0]["primitives"].push_back(file.primitive());  // the same card again: equal edges, one island
     const auto same = parseGltf(file.bytes(), "x.glb");
     ASSERT_TRUE(same);
-    EXPECT_EQ(same->strandCount, 1U);
+    EXPECT_EQ(same->islandCount, 1U);
     const auto apart = readWith([](GlbFile& f) {
         f.json["nodes"] = nlohmann::json::parse(R"([{"mesh": 0}, {"mesh": 0, "translation": [1, 0, 0]}])");
         f.json["scenes"][0]["nodes"] = {0, 1};
     });
     ASSERT_TRUE(apart);
-    EXPECT_EQ(apart->strandCount, 2U);
+    EXPECT_EQ(apart->islandCount, 2U);
     EXPECT_NE(apart->vertices.front().strandId, apart->vertices.back().strandId);
 }
 
@@ -245,7 +245,7 @@ TEST_P(RealCards, LoadWithDirectionsThatHang) {
     const auto cards = loadGltf(path);
     ASSERT_TRUE(cards) << cards.error().first().text;
     expectSound(*cards);
-    EXPECT_GT(cards->strandCount, 10U);
+    EXPECT_GT(cards->islandCount, 10U);
     EXPECT_EQ(cards->colorMap.width, 512U);
     float down = 0;
     for (const Vertex& v : cards->vertices) down -= v.tangent.y;

@@ -48,28 +48,28 @@ materials::Material material(const std::string& preset,
 }
 
 namespace {
-const hair::Groom& groom() {
-    static const hair::Groom made = hair::makeGroom({.style = hair::Style::Wavy, .strands = 3000, .width = 700e-6F});
+const hair::Strands& groom() {
+    static const hair::Strands made = hair::makeGroom({.style = hair::Style::Wavy, .strands = 3000, .width = 700e-6F});
     return made;
 }
 }  // namespace
 
-std::shared_ptr<const hair::Geometry> strands() {
-    static const auto made = std::make_shared<const hair::Geometry>(toLines(groom(), 1, hair::headCenter()));
+std::shared_ptr<const hair::Strands> strands() {
+    static const auto made = std::make_shared<const hair::Strands>(groom());
     return made;
 }
-std::shared_ptr<const hair::Geometry> cards() {
+std::shared_ptr<const hair::Mesh> cards() {
     static const auto made =
-        std::make_shared<const hair::Geometry>(bakeCards(groom(), {.cards = 120, .textureSize = 512, .segments = 10}));
+        std::make_shared<const hair::Mesh>(bakeCards(groom(), {.cards = 120, .textureSize = 512, .segments = 10}));
     return made;
 }
-std::shared_ptr<const hair::Geometry> head() {
-    static const auto made = std::make_shared<const hair::Geometry>(hair::makeHead());
+std::shared_ptr<const hair::Mesh> head() {
+    static const auto made = std::make_shared<const hair::Mesh>(hair::makeHead());
     return made;
 }
 
-std::shared_ptr<const hair::Geometry> card(const std::vector<glm::vec3>& tangents) {
-    auto made = std::make_shared<hair::Geometry>();
+std::shared_ptr<const hair::Mesh> card(const std::vector<glm::vec3>& tangents) {
+    auto made = std::make_shared<hair::Mesh>();
     made->name = "card";
     std::size_t corner = 0;
     for (const float x : {-1.0F, 1.0F}) {
@@ -82,12 +82,12 @@ std::shared_ptr<const hair::Geometry> card(const std::vector<glm::vec3>& tangent
         }
     }
     made->indices = {0, 1, 2, 2, 1, 3};
-    made->strandCount = 1;
+    made->islandCount = 1;
     made->updateBounds();
     return made;
 }
 
-hair::Scene portrait(const std::shared_ptr<const hair::Geometry>& hairGeometry, materials::Material hairMaterial) {
+hair::Scene portrait(const hair::Geometry& hairGeometry, materials::Material hairMaterial) {
     hair::Scene scene;
     scene.objects.push_back({.name = "head", .geometry = head(), .material = material("skin")});
     scene.objects.push_back({.name = "hair", .geometry = hairGeometry, .material = std::move(hairMaterial)});

@@ -20,15 +20,15 @@ materials::Material material(const std::string& preset,
                              const std::vector<std::pair<std::string, std::string>>& values = {});
 
 /// Geometry made once per process.
-std::shared_ptr<const hair::Geometry> strands();  // a wavy groom of 3,000 strands
-std::shared_ptr<const hair::Geometry> cards();    // baked from it
-std::shared_ptr<const hair::Geometry> head();
+std::shared_ptr<const hair::Strands> strands();  // a wavy groom of 3,000 strands
+std::shared_ptr<const hair::Mesh> cards();       // baked from it
+std::shared_ptr<const hair::Mesh> head();
 
 /// One card of 2 m in the plane z = 0, normal +z, root at -x; its corners take turns at the tangents.
-std::shared_ptr<const hair::Geometry> card(const std::vector<glm::vec3>& tangents = {{1, 0, 0}});
+std::shared_ptr<const hair::Mesh> card(const std::vector<glm::vec3>& tangents = {{1, 0, 0}});
 
 /// Head and hair, portrait lights, studio environment, framed from the front and a little to the side.
-hair::Scene portrait(const std::shared_ptr<const hair::Geometry>& hair, materials::Material hairMaterial);
+hair::Scene portrait(const hair::Geometry& hair, materials::Material hairMaterial);
 
 hair::Picture render(hair::Renderer& renderer, hair::Scene& scene, std::uint32_t size = 192,
                      const std::map<std::string, passes::SettingValue>& settings = {});

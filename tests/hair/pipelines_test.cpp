@@ -150,7 +150,7 @@ protected:
     }
     static void set(hair::Scene& scene, const char* property, const char* value) {
         for (hair::Object& object : scene.objects) {
-            if (object.geometry->isHair) {
+            if (hair::isHair(object.geometry)) {
                 EXPECT_TRUE(object.material.setFromText(property, value).empty()) << property;
             }
         }

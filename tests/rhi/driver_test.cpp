@@ -106,10 +106,10 @@ TEST(Toggles, FollowTheDriverAndItsVersion) {
     constexpr auto debian12 = VK_MAKE_API_VERSION(0, 22, 3, 6), later = VK_MAKE_API_VERSION(0, 23, 1, 0);
     EXPECT_EQ(on(VK_DRIVER_ID_MESA_RADV, debian12), Names());
     EXPECT_EQ(on(VK_DRIVER_ID_MESA_LLVMPIPE, debian12),
-              (Names{"barrierAfterBeginTimestamp", "resolveToFirstLayerOnly"}));
-    EXPECT_EQ(on(VK_DRIVER_ID_MESA_LLVMPIPE, later), Names{"barrierAfterBeginTimestamp"});
+              (Names{"barrierAfterBeginTimestamp", "resolveToFirstLayerOnly", "drawInBatches"}));
+    EXPECT_EQ(on(VK_DRIVER_ID_MESA_LLVMPIPE, later), (Names{"barrierAfterBeginTimestamp", "drawInBatches"}));
     EXPECT_EQ(on(VK_DRIVER_ID_MESA_LLVMPIPE, debian12, {{"resolveToFirstLayerOnly", false}}),
-              Names{"barrierAfterBeginTimestamp"});
+              (Names{"barrierAfterBeginTimestamp", "drawInBatches"}));
     EXPECT_EQ(on(VK_DRIVER_ID_MESA_RADV, debian12, {{"resolveToFirstLayerOnly", true}}),
               Names{"resolveToFirstLayerOnly"});
 }

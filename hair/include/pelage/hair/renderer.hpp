@@ -79,6 +79,20 @@ struct Picture {
 /// they are while the renderer lives. The `embeddedShader` that pelage_shaders() generates is one.
 using ShaderCode = std::function<std::span<const std::uint32_t>(std::string_view file)>;
 
+/// The strands of an object on the device, as the last frame drew them: for passes of a host's own. All are storage
+/// buffers; per-point arrays but `points` begin at first[s] for strand s.
+struct StrandBuffers {
+    rhi::Buffer points = {}, previousPoints = {};    // float3 at a stride of 12 bytes; the same buffer for what rests
+    rhi::Buffer starts = {};                         // u32: in both, strand s begins at point starts[s * startStride]
+    std::uint32_t startStride = 1;                   // elements
+    rhi::Buffer first = {};                          // u32, strandCount + 1
+    rhi::Buffer widths = {};                         // float, m, of point p at [p * widthStride]
+    rhi::Buffer colors = {};                         // float3 at a stride of 12 bytes, of point p at [p * colorStride]
+    rhi::Buffer ids = {};                            // float, one a strand
+    std::uint32_t widthStride = 1, colorStride = 1;  // elements; 0: one for all
+    std::uint32_t strandCount = 0;
+};
+
 class Renderer {
 public:
     struct Descriptor {
@@ -118,6 +132,8 @@ public:
     /// Of the last frame, once its work is done.
     FrameReport report() const;
     const passes::Plan& plan() const;
+    /// Of an object of the last encoded scene, by its index; null when it is none of strands.
+    const StrandBuffers* strandBuffers(std::size_t object) const;
     /// SPIR-V of an embedded shader and the constants a material gives it: for instruction counts.
     static std::span<const std::uint32_t> shaderCode(const std::string& file);
     static std::vector<std::string> shaderNames();

@@ -6,6 +6,7 @@
 
 #include <pelage/hair/geometry.hpp>
 #include <pelage/materials/material.hpp>
+#include <pelage/rhi/resources.hpp>
 
 #include <glm/glm.hpp>
 
@@ -66,12 +67,35 @@ struct Environment {
     Environment rotated(const glm::mat3& rotation) const;
 };
 
+/// This frame's points of an object of strands, in place of those of its geometry: from a simulation, an animation, a
+/// deformer. Widths, colours and ids stay those of the geometry. The renderer keeps those of the frame before on the
+/// device. At most one of `points` and `buffer` is given; neither means that the object is at rest.
+struct MovedPoints {
+    /// m, object space; as many as the geometry has, in its order. Read by Renderer::encode(), which copies them.
+    std::span<const glm::vec3> points = {};
+    /// Or a buffer that a host lends, float3 at a stride of 12 bytes, with BufferUsage::CopySrc. It is read on the
+    /// device when the frame runs. What the CPU must know of points is then known of the geometry's alone: the order of
+    /// alpha blending, and the bounds unless they are given below.
+    rhi::Buffer buffer = {};
+    /// Where in `buffer` each strand lies: its first point and one past its last, as many as the strand has in the
+    /// geometry. Empty: as in the geometry. Read by encode().
+    std::span<const glm::uvec2> ranges = {};
+    /// m, object space; both zero: those of `points`, or of the geometry for `buffer`. Shadow maps cover them.
+    glm::vec3 boundsMin = {}, boundsMax = {};
+
+    bool given() const { return !points.empty() || buffer; }
+};
+
 struct Object {
     std::string name = {};
-    std::shared_ptr<const Geometry> geometry = {};
+    Geometry geometry = {};
     materials::Material material;
-    glm::mat4 transform = glm::mat4(1.0F);
+    glm::mat4 transform = glm::mat4(1.0F);  // widths of strands grow with it (its mean scale across the strand)
+    MovedPoints moved = {};                 // strands only
 };
+
+/// Object-space bounds as drawn in this frame; false when there is nothing to draw.
+bool boundsOf(const Object& object, glm::vec3& low, glm::vec3& high);
 
 struct Scene {
     std::vector<Object> objects = {};
