@@ -110,7 +110,7 @@ bool isWidth(float width) {
 Result<Strands> cleaned(Strands&& read, char family, Diagnostics& notes) {
     Cleaner cleaner(read);
     cleaner.run();
-    const auto code = [&](const char* number) { return family + std::string(number); };
+    const auto code = [&](const char* number) { return Code::find(family + std::string(number)).value_or(Code()); };
     const std::string all = " of " + std::to_string(cleaner.seen_) + " strands";
     if (read.strandCount() == 0) {
         return fault(

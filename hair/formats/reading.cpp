@@ -33,7 +33,7 @@ tl::unexpected<Diagnostics> fault(Code code, std::string_view file, std::string_
     return tl::unexpected<Diagnostics>(remark(Severity::Error, code, file, text, hint));
 }
 
-Diagnostic cannotRead(std::string_view file) {
+tl::unexpected<Diagnostics> cannotRead(std::string_view file) {
     return fault("F001", file, "reading the file failed half way", "try again");
 }
 

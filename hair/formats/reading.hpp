@@ -29,7 +29,7 @@ Diagnostic remark(Severity severity, Code code, std::string_view file, std::stri
                   std::string_view hint);
 
 /// F001 for a file that ends before the bytes its size promised.
-Diagnostic cannotRead(std::string_view file);
+tl::unexpected<Diagnostics> cannotRead(std::string_view file);
 
 /// The value at `offset`; the caller has checked that it lies inside.
 template <class T>

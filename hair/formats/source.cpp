@@ -18,13 +18,13 @@ std::string folderOf(const std::string& path) {
     return slash == std::string::npos ? "." : slash == 0 ? "/" : path.substr(0, slash);
 }
 
-tl::unexpected<Diagnostic> tooLarge(const std::string& path, std::uint64_t limit) {
+tl::unexpected<Diagnostics> tooLarge(const std::string& path, std::uint64_t limit) {
     return fault("F002", path,
                                 "the file is larger than the limit of " + std::to_string(limit) + " bytes",
                                 "split the asset, or remove what hair does not need from it");
 }
 
-tl::unexpected<Diagnostic> emptyFile(const std::string& path) {
+tl::unexpected<Diagnostics> emptyFile(const std::string& path) {
     return fault("F003", path, "the file is empty (0 bytes)", "export or download it again");
 }
 

@@ -22,7 +22,7 @@ struct Header {
     std::uint32_t strands = 0, pointsPerStrand = 0, positions = 0;
 };
 
-Diagnostic promisesMore(const std::string& name, const Header& h, std::uint64_t size) {
+tl::unexpected<Diagnostics> promisesMore(const std::string& name, const Header& h, std::uint64_t size) {
     return fault("T004", name,
                  "the header promises " + std::to_string(h.strands) + " strands of " +
                      std::to_string(h.pointsPerStrand) + " points (" +
@@ -33,7 +33,7 @@ Diagnostic promisesMore(const std::string& name, const Header& h, std::uint64_t 
 
 Result<Header> readHeader(Source& source, const std::string& name) {
     if (source.size() < kHeaderBytes) {
-        return tl::unexpected(fault("T001", name,
+        return fault("T001", name,
                                     "the file has " + std::to_string(source.size()) +
                                         " bytes, expected at least the 160 bytes of a TressFX header",
                                     "the file is cut off or is no .tfx file");

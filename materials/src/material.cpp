@@ -24,7 +24,7 @@ void Material::reset() {
     if (values_.empty()) dirty_.assign(properties.size(), true);
     values_.resize(properties.size());
     for (std::size_t i = 0; i < properties.size(); ++i) {
-        put(i, properties[i].defaultValue);
+        assign(i, properties[i].defaultValue);
     }
 }
 

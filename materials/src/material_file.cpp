@@ -125,7 +125,7 @@ void MaterialReader::readValues(Material& material, const json::Document& docume
     // An older file that says nothing of a property relied on the value it had then, or on its parent.
     for (const VersionStep& step : linked.versionSteps) {
         if (!hasNoParent || saved >= step.to) continue;
-        for (const GivenValue& given : step.values) material.put(given.property, given.value);
+        for (const GivenValue& given : step.values) material.assign(given.property, given.value);
     }
     std::vector<std::pair<std::size_t, json::Place>> seen;
     for (const json::Member& member : document.root.find("values")->members)

@@ -19,18 +19,18 @@ public:
             if (resource.isBuffer) {
                 const auto found = imports.buffers.find(import.name);
                 if (found == imports.buffers.end() || !found->second)
-                    return fault("H001: the frame lacks the buffer '" + import.name + "'");
+                    return fault("P080", "the frame lacks the buffer '" + import.name + "'");
                 state_.buffers[import.resource] = found->second;
                 continue;
             }
             const auto found = imports.textures.find(import.name);
             if (found == imports.textures.end() || !found->second)
-                return fault("H001: the frame lacks the image '" + import.name + "'");
+                return fault("P080", "the frame lacks the image '" + import.name + "'");
             const rhi::Texture& texture = found->second;
             const rhi::Extent3D size = texture.size();
             if (texture.format() != resource.format || texture.sampleCount() != resource.samples ||
                 size != resource.extent) {
-                return fault("H002: the image '" + import.name + "' is " +
+                return fault("P081", "the image '" + import.name + "' is " +
                              shape(size, texture.format(), texture.sampleCount()) + ", the plan was made for " +
                              shape(resource.extent, resource.format, resource.samples) + "; build the graph again");
             }
@@ -81,9 +81,9 @@ public:
     }
 
 private:
-    static tl::unexpected<Diagnostics> fault(std::string text) {
+    static tl::unexpected<Diagnostics> fault(Code code, std::string text) {
         return tl::unexpected<Diagnostics>(
-            Diagnostic{.code = rhi::ErrorCode::InvalidHandle, .text = std::move(text), .kind = ErrorKind::Validation});
+            Diagnostic{.code = code, .text = std::move(text)});
     }
 
     static std::string shape(const rhi::Extent3D& size, rhi::TextureFormat format, std::uint32_t samples) {

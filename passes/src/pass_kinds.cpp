@@ -33,8 +33,8 @@ Result<void> copyImage(const PassContext& context, const PlanSlot& from, const P
 Result<void> copyBuffer(const PassContext& context, const PlanSlot& from, const PlanSlot& to) {
     const rhi::Buffer source = context.buffer(from.name), target = context.buffer(to.name);
     if (source.size() != target.size()) {
-        return tl::unexpected(Diagnostic{.code = rhi::ErrorCode::InvalidHandle,
-                                         .message = "H002: pass '" + context.pass.name + "' copies " +
+        return tl::unexpected(Diagnostic{.code = "P081",
+                                         .text = "pass '" + context.pass.name + "' copies " +
                                                     std::to_string(source.size()) + " bytes into a buffer of " +
                                                     std::to_string(target.size())});
     }

@@ -16,7 +16,7 @@ protected:
     template <class T>
     Diagnostic error(const Result<T>& result) {
         EXPECT_FALSE(result) << "no error came";
-        return result ? Diagnostic{} : result.error();
+        return result ? Diagnostic{} : result.error().first();
     }
     /// The error of an encoder that `record` misuses.
     Diagnostic encoding(const std::function<void(CommandEncoder&)>& record) {
@@ -120,7 +120,7 @@ TEST_F(Errors, ADriverFailureNamesTheCallAndTheObject) {
         if (b)
             all.push_back(*b);
         else
-            refused = b.error();
+            refused = b.error().first();
     }
     if (refused.text.empty())
         GTEST_SKIP() << "this machine gave " << all.size() << " buffers of " << size << " bytes";

@@ -96,7 +96,7 @@ TEST_F(TransientHeapTest, ThePlaceMustBeAlignedAndInside) {
     const auto odd = device.popErrorScope();
     ASSERT_TRUE(odd);
     EXPECT_EQ(odd->code, ErrorCode::OutOfRange);
-    EXPECT_NE(odd->message.find("a multiple of"), std::string::npos) << odd->message;
+    EXPECT_NE(odd->text.find("a multiple of"), std::string::npos) << odd->text;
     device.pushErrorScope();
     EXPECT_FALSE(device.createTexture(placed(heap, 2 * n.size)));
     EXPECT_TRUE(device.popErrorScope());
