@@ -23,13 +23,12 @@ void main() {
     if (i > last) return;
     vec3 world = worldOf(i);
     vec3 tangent = normalize(worldOf(min(i + 1, last)) - worldOf(max(i - 1, 0)));
-    vec3 wo = normalize(frame.eye.xyz - world);
+    vec3 wo = normalize(frame.eye - world);
     FiberMaterial m = fiberMaterial(material.baseColor);
     MomentRow row = fetchRow(m, length(cross(tangent, wo)));
     vec3 radiance = vec3(0.0);
-    int count = int(frame.eye.w);
-    for (int light = 0; light < count; ++light) {
-        Incident incident = incidentLight(frame.lights[light], world);
+    for (int light = 0; light < lightCount; ++light) {
+        Incident incident = incidentLight(light, world);
         radiance += scatter(fiberAngles(tangent, incident.direction, wo), m, row, true) * incident.irradiance;
     }
     b_radiance.of[i] = vec4(radiance, 1.0);

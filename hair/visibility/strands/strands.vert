@@ -133,7 +133,7 @@ void main() {
     precise float projected = width * sqrt(dot(gradient, gradient));
     precise float drawn = max(projected, 1.0);
     precise vec2 offset = across * (side * drawn * mitre);
-    clip.xy += 2.0 * offset * frame.viewport.zw * clip.w;
+    clip.xy += 2.0 * offset * frame.pixelSize * clip.w;
     gl_Position = clip;
 
     v_world = world.xyz;
