@@ -81,7 +81,7 @@ protected:
     void expectKept(const std::string& why) {
         const LiveStage::Polled polled = live_->poll();
         ASSERT_EQ(polled.change, LiveStage::Change::Kept) << why;
-        const std::string line = lineOf(polled.error);
+        const std::string line = app::lineOf(polled.error);
         EXPECT_NE(line.find(why), std::string::npos) << line;
         ASSERT_EQ(polled.notes.items().size(), 1U);
         const std::string note = toString(polled.notes.items().front());
