@@ -55,19 +55,19 @@ Result<void> writeBuffer(const rhi::Device& device, const rhi::Buffer& buffer, s
     constexpr std::size_t slice = std::size_t{1} << 20;
     for (std::size_t at = 0; at < bytes.size(); at += slice) {
         const auto part = bytes.subspan(at, std::min(slice, bytes.size() - at));
-        if (auto written = device.queue().writeBuffer(buffer, at, part); !written) return tl::unexpected(written.error());
+        if (auto written = device.queue().writeBuffer(buffer, at, part); !written) return written;
     }
     return {};
 }
 
 Result<rhi::Buffer> uploadBuffer(const rhi::Device& device, const std::string& label, BufferUsage usage,
-                                  std::span<const std::byte> bytes) {
+                                 std::span<const std::byte> bytes) {
     const rhi::AdapterType type = device.info().type;
     const bool direct = type == rhi::AdapterType::CPU || type == rhi::AdapterType::IntegratedGPU;
     auto buffer = device.createBuffer({.label = label,
                                        .size = bytes.size(),
                                        .usage = usage | (direct ? BufferUsage::MapWrite : BufferUsage::CopyDst)});
-    if (!buffer) return tl::unexpected(buffer.error());
+    if (!buffer) return buffer;
     if (direct) {
         std::memcpy(buffer->mapped().data(), bytes.data(), bytes.size());
         return *buffer;
@@ -151,13 +151,13 @@ Result<rhi::Buffer> MovingPoints::next(const rhi::Device& device, const std::str
     rhi::Buffer& buffer = turns_[turn_];
     if (buffer && buffer.size() == bytes) return buffer;
     auto made = device.createBuffer({.label = name + " points", .size = bytes, .usage = kUsage | BufferUsage::CopyDst});
-    if (!made) return tl::unexpected(made.error());
+    if (!made) return made;
     buffer = *made;
     return buffer;
 }
 
 Result<void> MovingPoints::updateStarts(const rhi::Device& device, const std::string& name,
-                                         std::span<const glm::uvec2> ranges, const Strands& strands) {
+                                        std::span<const glm::uvec2> ranges, const Strands& strands) {
     if (starts_ && std::equal(ranges.begin(), ranges.end(), ranges_.begin(), ranges_.end())) return {};
     if (ranges.size() != strands.strandCount()) {
         return misfit("N006",
@@ -187,7 +187,7 @@ Result<void> MovingPoints::updateStarts(const rhi::Device& device, const std::st
 }
 
 Result<void> MovingPoints::update(const rhi::Device& device, rhi::CommandEncoder& encoder, const std::string& name,
-                                   const MovedPoints& moved, const Strands& strands, const StrandBuffers& rest) {
+                                  const MovedPoints& moved, const Strands& strands, const StrandBuffers& rest) {
     const StrandBuffers last = std::move(now_);
     now_ = rest;
     if (moved.buffer) {

@@ -397,7 +397,7 @@ TEST_F(MovingStrands, MisfitsAreNamed) {
     hair::Scene moving = scene(shared(groom()));
     const auto codeOf = [&] {
         auto picture = renderer().render(moving, {.width = 32, .height = 32});
-        return picture ? std::string() : picture.error().code;
+        return picture ? std::string() : std::string(picture.error().first().code.text());
     };
     const std::vector<glm::vec3> few(7);
     moving.objects[1].moved.points = few;
