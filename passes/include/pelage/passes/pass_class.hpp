@@ -84,7 +84,7 @@ struct PassSetup {
     const ShaderSource& shaders;  // the graph's
 
     /// The stage of a pipeline of this pass: the module with those of its specialization constants that the file gives a
-    /// value ("constants": {"samples": 4}), else what the images say of themselves (<bind>_samples, <bind>_present).
+    /// value ("constants": {"samples": 4}), else what the images say of themselves (`u_source_samples`, `u_source_present` for the bind `u_source`).
     /// A constant of the file that is in no stage asked for here is an error of the build (S020).
     rhi::ProgrammableStage stage(const rhi::ShaderModule& module) const;
     /// All constants of the file, for a class that makes its pipelines later: none of them is an error then.

@@ -77,7 +77,7 @@ struct PassClassInfo {
 };
 
 /// The class that records raster passes: `"kind": "raster", "drawList": "forward"` in a file. Whoever draws registers
-/// it as any other class; PlanPass::drawList and ::view tell one pass from another.
+/// it as any other class; PlanPass::drawList and PlanPass::view tell one pass from another.
 inline constexpr std::string_view drawListClass = "DrawList";
 
 struct PlanResource;
