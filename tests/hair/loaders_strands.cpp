@@ -187,8 +187,8 @@ TEST(Assets, CentimetresBecomeMetresAndAreNoted) {
 
 TEST(Assets, FilesThatCannotBeReadHaveTheirCodes) {
     expectFault(loadAsset("no/such/file.glb"), "F001");
-    expectFault(loadAsset(std::filesystem::temp_directory_path().string() + "/."), "A001");
-    expectFault(loadAsset("hair.obj"), "A001");
+    expectFault(loadAsset(std::filesystem::temp_directory_path().string() + "/."), "A100");
+    expectFault(loadAsset("hair.obj"), "A100");
     for (const char* ending : {".glb", ".gltf", ".tfx", ".hair"}) {
         const TemporaryFile empty({}, ending);
         expectFault(loadAsset(empty.path()), "F003");
