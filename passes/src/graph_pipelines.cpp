@@ -39,7 +39,7 @@ private:
         const Place place = !says ? Place{} : draws ? says->drawListPlace : says->classPlace;
         const PassClass* found = classes_.find(pass.passClass);
         if (!found) {
-            // The host described a class to the linker that the graph's registry lacks, or nobody draws lists.
+            // The host described a class to the linker that the graph's registry lacks, or registered none for lists.
             reporter_.error(
                 place, "P053",
                 "pass '" + pass.name + "': " +

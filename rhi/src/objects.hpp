@@ -183,7 +183,7 @@ struct QuerySetObject final : Object {
     ~QuerySetObject() override;
     QuerySetDescriptor descriptor;
     VkQueryPool handle = VK_NULL_HANDLE;
-    std::vector<bool> written;  // under the queue's mutex; a query nobody wrote resolves to zero
+    std::vector<bool> written;  // under the queue's mutex; a query that was never written resolves to zero
 };
 
 /// The object of a handle, or an error that says which argument was empty.
