@@ -194,7 +194,7 @@ private:
         return layout;
     }
 
-    // Made once now to hear what does not fit; groups with images of the host wait for the frame.
+    // Made once now to find what does not fit; groups with images of the host wait for the frame.
     void checkGroup(std::size_t index, const rhi::BindGroupLayout& layout) {
         for (const PlanSlot& slot : state_.plan.passes[index].slots) {
             if (slot.resource != ~0U && state_.plan.resources[slot.resource].kind == PlanResource::Kind::Import) return;

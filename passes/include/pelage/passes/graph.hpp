@@ -42,10 +42,9 @@ public:
 
     /// Compiles the tree for the host and makes what it needs. On an error the last good plan stays in force. When
     /// nothing has changed since the last build that worked (the same tree, settings, imports, extent and depth
-    /// convention), the plan stays and the call costs less than 5 us: a host may call it each frame. build()
-    /// does not call the callbacks in `host` to see whether they would answer otherwise now: invalidate() says that they
-    /// do. What an attachment with a history remembers survives a new plan in which
-    /// it has the same shape.
+    /// convention), the plan stays and the call costs less than 5 us: a host may call it each frame. That a callback in
+    /// `host` would answer differently now is not noticed: call invalidate() then. What an attachment with a history
+    /// remembers survives a new plan in which the attachment has the same shape.
     Result<void> build(const PassTree& tree, const HostDescription& host);
     /// The next build() plans anew although nothing it can see has changed: shaders were compiled again, say.
     void invalidate() { stale_ = true; }

@@ -31,7 +31,7 @@
 //                  }});
 //
 // The graph does the rest: order, attachments, load and store, clears, barriers, labels, queries, memory. What a class
-// touches must be a slot; a resource that it brings itself (a pipeline, a vertex buffer) is its own to keep.
+// touches must be a slot; a resource that it brings itself (a pipeline, a vertex buffer) it must keep alive itself.
 // Faults of a file are found when it is compiled: an unknown class (P053, with the nearest name), a parameter that the
 // class does not have or that it needs (P054), a value outside its range (P055), a slot that such a pass cannot have
 // (P023). A constant that none of the class's shaders has is P077, with the nearest name. A fault of create() keeps its
