@@ -131,9 +131,8 @@ Result<LoadedAsset> loadAsset(const std::string& path) {
     const auto* const format = std::find_if(std::begin(kFormats), std::end(kFormats),
                                             [&](const Format& each) { return each.ending == ending; });
     if (format == std::end(kFormats)) {
-        return fault("A100", path,
-                                    "the ending \"" + ending + "\" is not known, expected " + assetEndings(),
-                                    "convert the asset, or correct its ending");
+        return fault("A100", path, "the ending \"" + ending + "\" is not known, expected " + assetEndings(),
+                     "convert the asset, or correct its ending");
     }
     auto source = reading::Source::open(path);
     if (!source) return tl::unexpected(source.error());

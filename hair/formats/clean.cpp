@@ -113,12 +113,12 @@ Result<Strands> cleaned(Strands&& read, char family, Diagnostics& notes) {
     const auto code = [&](const char* number) { return Code::find(family + std::string(number)).value_or(Code()); };
     const std::string all = " of " + std::to_string(cleaner.seen_) + " strands";
     if (read.strandCount() == 0) {
-        return fault(
-            code("006"), read.name,
-            "no strand can be used: " + std::to_string(cleaner.notFinite_) + " with points that are not finite, " +
-                std::to_string(cleaner.tooShort_) + " with fewer than 2 points, " + std::to_string(cleaner.noLength_) +
-                " without length, out of " + std::to_string(cleaner.seen_) + "; expected at least 1",
-            "export the groom again");
+        return fault(code("006"), read.name,
+                     "no strand can be used: " + std::to_string(cleaner.notFinite_) +
+                         " with points that are not finite, " + std::to_string(cleaner.tooShort_) +
+                         " with fewer than 2 points, " + std::to_string(cleaner.noLength_) +
+                         " without length, out of " + std::to_string(cleaner.seen_) + "; expected at least 1",
+                     "export the groom again");
     }
     const auto warn = [&](const char* number, std::uint64_t count, const std::string& text, const char* hint) {
         if (count == 0) return;

@@ -58,7 +58,7 @@ public:
         if (auto done = walkScene(); !done) return tl::unexpected(done.error());
         if (cards_.indices.empty()) {
             return reading::fault("G012", name_, "the default scene holds no triangles, expected cards",
-                                                 "export the meshes together with the scene");
+                                  "export the meshes together with the scene");
         }
         if (auto read = readTexture(); !read) return tl::unexpected(read.error());
         cards_.updateBounds();
@@ -67,7 +67,6 @@ public:
     }
 
 private:
-    
     Result<void> walkScene() {
         struct Visit {
             int node;
@@ -161,7 +160,8 @@ private:
         }
         const auto first = static_cast<std::uint32_t>(cards_.vertices.size());
         if (auto done = addVertices(primitive, world, place); !done) return done;
-        if (auto done = addTriangles(primitive, first, glm::determinant(glm::dmat3(world)) < 0, place); !done) return done;
+        if (auto done = addTriangles(primitive, first, glm::determinant(glm::dmat3(world)) < 0, place); !done)
+            return done;
         if (material_ < 0) material_ = primitive.material;
         if (primitive.material >= 0 && primitive.material != material_) otherMaterials_ = true;
         return {};
@@ -230,7 +230,7 @@ private:
     }
 
     Result<void> addTriangles(const tinygltf::Primitive& primitive, std::uint32_t first, bool mirrored,
-                       const std::string& place) {
+                              const std::string& place) {
         const auto vertices = static_cast<std::uint32_t>(cards_.vertices.size() - first);
         gltf::Elements list;
         if (primitive.indices >= 0) {

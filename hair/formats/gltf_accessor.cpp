@@ -113,13 +113,10 @@ std::uint32_t Elements::index(std::size_t i) const {
     }
 }
 
-Result<Elements> elements(const tinygltf::Model& model, int index, std::string_view semantic,
-                           const std::string& name) {
+Result<Elements> elements(const tinygltf::Model& model, int index, std::string_view semantic, const std::string& name) {
     const std::string self = "accessor " + std::to_string(index) + " (" + std::string(semantic) + ") ";
     const char* const damaged = "the file is damaged: export it again";
-    const auto outside = [&](const std::string& text) {
-        return fault("G008", name, self + text, damaged);
-    };
+    const auto outside = [&](const std::string& text) { return fault("G008", name, self + text, damaged); };
     if (index < 0 || static_cast<std::size_t>(index) >= model.accessors.size()) {
         return outside("does not exist; the file has " + std::to_string(model.accessors.size()));
     }
@@ -128,9 +125,9 @@ Result<Elements> elements(const tinygltf::Model& model, int index, std::string_v
     const int components = componentsOf(accessor.type);
     if (components != expected.components || !expected.suits(accessor.componentType)) {
         return fault("G009", name,
-                                    self + "has " + std::to_string(components) + " components of " +
-                                        typeName(accessor.componentType) + ", expected " + expected.text,
-                                    "export the mesh again");
+                     self + "has " + std::to_string(components) + " components of " + typeName(accessor.componentType) +
+                         ", expected " + expected.text,
+                     "export the mesh again");
     }
     if (accessor.sparse.isSparse || accessor.bufferView < 0) {
         return tl::unexpected(

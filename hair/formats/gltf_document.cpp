@@ -91,15 +91,14 @@ Result<std::string_view> jsonOfBinary(std::span<const std::byte> bytes, const st
     const std::string size = std::to_string(bytes.size());
     if (bytes.size() < 20) {
         return fault("G002", name, "the file has " + size + " bytes, expected at least 20 of a .glb",
-                                    "the file is cut off: copy or export it again");
+                     "the file is cut off: copy or export it again");
     }
     const auto version = reading::valueAt<std::uint32_t>(bytes, 4);
     const auto length = reading::valueAt<std::uint32_t>(bytes, 8);
     const auto jsonLength = reading::valueAt<std::uint32_t>(bytes, 12);
     if (version != 2) {
-        return fault("G001", name,
-                                    "the .glb header says version " + std::to_string(version) + ", expected 2",
-                                    "export it as glTF 2.0");
+        return fault("G001", name, "the .glb header says version " + std::to_string(version) + ", expected 2",
+                     "export it as glTF 2.0");
     }
     if (length > bytes.size()) {
         return tl::unexpected(
@@ -108,10 +107,9 @@ Result<std::string_view> jsonOfBinary(std::span<const std::byte> bytes, const st
     }
     if (reading::valueAt<std::uint32_t>(bytes, 16) != kJsonChunk || !reading::fits(20, jsonLength, 1, length)) {
         return fault("G002", name,
-                                    "the first chunk promises " + std::to_string(jsonLength) +
-                                        " bytes of JSON, expected a JSON chunk that ends within " +
-                                        std::to_string(length) + " bytes",
-                                    "the file is damaged: export it again");
+                     "the first chunk promises " + std::to_string(jsonLength) +
+                         " bytes of JSON, expected a JSON chunk that ends within " + std::to_string(length) + " bytes",
+                     "the file is damaged: export it again");
     }
     const std::size_t next = std::size_t{20} + jsonLength;
     if (reading::fits(next, 8, 1, length)) {
@@ -119,9 +117,9 @@ Result<std::string_view> jsonOfBinary(std::span<const std::byte> bytes, const st
         const bool isBin = reading::valueAt<std::uint32_t>(bytes, next + 4) == kBinChunk;
         if (isBin && !reading::fits(next + 8, binLength, 1, length)) {
             return fault("G002", name,
-                                        "the binary chunk promises " + std::to_string(binLength) + " bytes, but only " +
-                                            std::to_string(length - next - 8) + " follow",
-                                        "the file is cut off or damaged: export it again");
+                         "the binary chunk promises " + std::to_string(binLength) + " bytes, but only " +
+                             std::to_string(length - next - 8) + " follow",
+                         "the file is cut off or damaged: export it again");
         }
     }
     return std::string_view(reinterpret_cast<const char*>(bytes.data()) + 20, jsonLength);
@@ -134,7 +132,7 @@ Result<tinygltf::Model> checkExtensions(tinygltf::Model model, const std::string
                               extension == "KHR_mesh_quantization" || extension == "KHR_xmp_json_ld";
         if (harmless) continue;
         return fault("G017", name, "the file requires the extension \"" + extension + "\"",
-                                    "export it uncompressed and without that extension");
+                     "export it uncompressed and without that extension");
     }
     return model;
 }
@@ -142,7 +140,7 @@ Result<tinygltf::Model> checkExtensions(tinygltf::Model model, const std::string
 }  // namespace
 
 Result<tinygltf::Model> readDocument(std::span<const std::byte> bytes, const std::string& name,
-                                      const std::string& folder) {
+                                     const std::string& folder) {
     const bool binary = bytes.size() >= 4 && std::memcmp(bytes.data(), "glTF", 4) == 0;
     std::string_view json(reinterpret_cast<const char*>(bytes.data()), bytes.size());
     if (bytes.empty()) return fault("G001", name, "there are no bytes", "name a .glb or .gltf file");
@@ -154,9 +152,9 @@ Result<tinygltf::Model> readDocument(std::span<const std::byte> bytes, const std
         const std::size_t start = json.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
         if (start == std::string_view::npos || json[start] != '{') {
             return fault("G001", name,
-                                        "the file starts with \"" + reading::oneLine(json.substr(0, 4)) +
-                                            "\", expected \"glTF\" (binary) or \"{\" (text)",
-                                        "this is no glTF file");
+                         "the file starts with \"" + reading::oneLine(json.substr(0, 4)) +
+                             "\", expected \"glTF\" (binary) or \"{\" (text)",
+                         "this is no glTF file");
         }
     }
     if (bytes.size() > std::numeric_limits<std::uint32_t>::max()) {
@@ -192,11 +190,11 @@ Result<tinygltf::Model> readDocument(std::span<const std::byte> bytes, const std
         const std::string where =
             folder.empty() ? "this reader was given bytes without a folder" : "looked for " + outside.missing;
         return fault("G005", name, "a buffer file that the glTF names cannot be read; " + where,
-                                    "keep the .bin beside the .gltf, or export one .glb");
+                     "keep the .bin beside the .gltf, or export one .glb");
     }
     if (!good) {
         return fault("G004", name, "the glTF document is not valid: " + error,
-                                    "check it with the Khronos glTF validator, or export it again");
+                     "check it with the Khronos glTF validator, or export it again");
     }
     return checkExtensions(std::move(model), name);
 }
@@ -204,7 +202,7 @@ Result<tinygltf::Model> readDocument(std::span<const std::byte> bytes, const std
 Result<std::span<const std::byte>> viewBytes(const tinygltf::Model& model, int view, const std::string& name) {
     const auto wrong = [&](const std::string& text) {
         return fault("G008", name, "buffer view " + std::to_string(view) + " " + text,
-                                    "the file is damaged: export it again");
+                     "the file is damaged: export it again");
     };
     if (view < 0 || static_cast<std::size_t>(view) >= model.bufferViews.size()) {
         return wrong("does not exist; the file has " + std::to_string(model.bufferViews.size()));

@@ -19,7 +19,7 @@ namespace pelage::hair::gltf {
 
 /// The document, images still encoded (Image::image holds the file's bytes of an image named by a URI).
 Result<tinygltf::Model> readDocument(std::span<const std::byte> bytes, const std::string& name,
-                                      const std::string& folder);
+                                     const std::string& folder);
 
 /// The bytes of a buffer view, checked against its buffer (G008).
 Result<std::span<const std::byte>> viewBytes(const tinygltf::Model& model, int view, const std::string& name);

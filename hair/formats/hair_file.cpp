@@ -41,16 +41,16 @@ void layOut(Header& h) {
 Result<Header> readHeader(Source& source, const std::string& name) {
     if (source.size() < kHeaderBytes) {
         return fault("H001", name,
-                                    "the file has " + std::to_string(source.size()) +
-                                        " bytes, expected at least the 128 bytes of a HAIR header",
-                                    "the file is cut off or is no .hair file");
+                     "the file has " + std::to_string(source.size()) +
+                         " bytes, expected at least the 128 bytes of a HAIR header",
+                     "the file is cut off or is no .hair file");
     }
     std::array<std::byte, kHeaderBytes> bytes = {};
     if (!source.read(0, bytes)) return reading::cannotRead(name);
     if (std::memcmp(bytes.data(), "HAIR", 4) != 0) {
         const std::string found(reinterpret_cast<const char*>(bytes.data()), 4);
         return fault("H002", name, "the file starts with \"" + found + "\", expected \"HAIR\"",
-                                    "this is no .hair file of Cem Yuksel's format");
+                     "this is no .hair file of Cem Yuksel's format");
     }
     Header h;
     h.strands = reading::valueAt<std::uint32_t>(bytes, 4);
@@ -60,24 +60,24 @@ Result<Header> readHeader(Source& source, const std::string& name) {
     h.defaultThickness = reading::valueAt<float>(bytes, 20);
     if (!(h.flags & Points) || h.strands == 0 || h.points == 0) {
         return fault("H003", name,
-                                    "the header counts " + std::to_string(h.strands) + " strands and " +
-                                        std::to_string(h.points) + " points with flags " + std::to_string(h.flags) +
-                                        ", expected at least 1 strand and the points flag (2)",
-                                    "export the groom again, with points");
+                     "the header counts " + std::to_string(h.strands) + " strands and " + std::to_string(h.points) +
+                         " points with flags " + std::to_string(h.flags) +
+                         ", expected at least 1 strand and the points flag (2)",
+                     "export the groom again, with points");
     }
     layOut(h);
     if (h.end > source.size()) {
         return fault("H004", name,
-                                    "the header promises " + std::to_string(h.strands) + " strands with " +
-                                        std::to_string(h.points) + " points (" + std::to_string(h.end) +
-                                        " bytes), but the file has " + std::to_string(source.size()) + " bytes",
-                                    "the file is cut off or its header is damaged: copy or export it again");
+                     "the header promises " + std::to_string(h.strands) + " strands with " + std::to_string(h.points) +
+                         " points (" + std::to_string(h.end) + " bytes), but the file has " +
+                         std::to_string(source.size()) + " bytes",
+                     "the file is cut off or its header is damaged: copy or export it again");
     }
     if (h.points > reading::kMaxVertices || h.strands > reading::kMaxVertices) {
         return fault("H007", name,
-                                    "the groom has " + std::to_string(h.points) + " points, more than the limit of " +
-                                        std::to_string(reading::kMaxVertices),
-                                    "export fewer strands");
+                     "the groom has " + std::to_string(h.points) + " points, more than the limit of " +
+                         std::to_string(reading::kMaxVertices),
+                     "export fewer strands");
     }
     return h;
 }
@@ -96,9 +96,9 @@ Result<std::vector<std::uint32_t>> readFirst(Source& source, const std::string& 
     }
     if (sum != h.points) {
         return fault("H005", name,
-                                    "the strands' segments add up to " + std::to_string(sum) +
-                                        " points, expected the " + std::to_string(h.points) + " of the header",
-                                    "the file is damaged: export the groom again");
+                     "the strands' segments add up to " + std::to_string(sum) + " points, expected the " +
+                         std::to_string(h.points) + " of the header",
+                     "the file is damaged: export the groom again");
     }
     return first;
 }

@@ -74,16 +74,16 @@ Result<Image8> decodeImage(std::span<const std::byte> bytes, const std::string& 
     const auto unreadable = [&] {
         const char* why = stbi_failure_reason();
         return fault("I002", name,
-                                    "the image (" + std::to_string(bytes.size()) +
-                                        " bytes) cannot be decoded: " + (why != nullptr ? why : "unknown reason"),
-                                    "expected PNG, JPEG, TGA or BMP; export the texture again");
+                     "the image (" + std::to_string(bytes.size()) +
+                         " bytes) cannot be decoded: " + (why != nullptr ? why : "unknown reason"),
+                     "expected PNG, JPEG, TGA or BMP; export the texture again");
     };
     if (bytes.size() > static_cast<std::size_t>(std::numeric_limits<int>::max())) {
         return fault("I003", name, "the image file is larger than 2 GiB", "use a smaller texture");
     }
     if (!jpegTablesFit(bytes)) {
         return fault("I005", name, "a Huffman table of the JPEG has more than 256 codes",
-                                    "the texture is damaged: export it again");
+                     "the texture is damaged: export it again");
     }
     const auto* data = reinterpret_cast<const stbi_uc*>(bytes.data());
     const int size = static_cast<int>(bytes.size());
@@ -92,18 +92,18 @@ Result<Image8> decodeImage(std::span<const std::byte> bytes, const std::string& 
     const auto side = static_cast<int>(reading::kMaxImageSide);
     const std::string extent = std::to_string(width) + " x " + std::to_string(height);
     if (width < 1 || height < 1 || width > side || height > side) {
-        return fault(
-            "I003", name, "the image is " + extent + " texels, expected 1 to " + std::to_string(side) + " on each side",
-            "use a smaller texture");
+        return fault("I003", name,
+                     "the image is " + extent + " texels, expected 1 to " + std::to_string(side) + " on each side",
+                     "use a smaller texture");
     }
     // The densest of these formats (1-bit PNG) packs some 8,000 texels a byte. More than that is a damaged header, and
     // decoding it would ask for a gigabyte to hold nothing.
     const auto texels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
     if (texels / 16384 > bytes.size()) {
         return fault("I004", name,
-                                    "the image header promises " + extent + " texels, which cannot be in " +
-                                        std::to_string(bytes.size()) + " bytes",
-                                    "the texture is cut off or damaged: export it again");
+                     "the image header promises " + extent + " texels, which cannot be in " +
+                         std::to_string(bytes.size()) + " bytes",
+                     "the texture is cut off or damaged: export it again");
     }
     const int channels = found == 3 ? 4 : found;
     const std::unique_ptr<stbi_uc, void (*)(void*)> decoded(

@@ -18,8 +18,7 @@ std::string oneLine(std::string_view text, std::size_t limit) {
     return line;
 }
 
-Diagnostic remark(Severity severity, Code code, std::string_view file, std::string_view text,
-                  std::string_view hint) {
+Diagnostic remark(Severity severity, Code code, std::string_view file, std::string_view text, std::string_view hint) {
     Diagnostic d;
     d.severity = severity;
     d.code = code;

@@ -25,8 +25,7 @@ constexpr float kMaxCoordinate = 1e9F;                           // file units; 
 std::string oneLine(std::string_view text, std::size_t limit = 300);
 
 tl::unexpected<Diagnostics> fault(Code code, std::string_view file, std::string_view text, std::string_view hint);
-Diagnostic remark(Severity severity, Code code, std::string_view file, std::string_view text,
-                  std::string_view hint);
+Diagnostic remark(Severity severity, Code code, std::string_view file, std::string_view text, std::string_view hint);
 
 /// F001 for a file that ends before the bytes its size promised.
 tl::unexpected<Diagnostics> cannotRead(std::string_view file);

@@ -19,9 +19,8 @@ std::string folderOf(const std::string& path) {
 }
 
 tl::unexpected<Diagnostics> tooLarge(const std::string& path, std::uint64_t limit) {
-    return fault("F002", path,
-                                "the file is larger than the limit of " + std::to_string(limit) + " bytes",
-                                "split the asset, or remove what hair does not need from it");
+    return fault("F002", path, "the file is larger than the limit of " + std::to_string(limit) + " bytes",
+                 "split the asset, or remove what hair does not need from it");
 }
 
 tl::unexpected<Diagnostics> emptyFile(const std::string& path) {
@@ -33,8 +32,7 @@ tl::unexpected<Diagnostics> emptyFile(const std::string& path) {
 Result<Source> Source::open(const std::string& path, std::uint64_t limit) {
     std::error_code error;
     if (!std::filesystem::exists(path, error)) {
-        return tl::unexpected(
-            fault("F001", path, "there is no such file", "check the spelling and the folder the program runs in"));
+        return fault("F001", path, "there is no such file", "check the spelling and the folder the program runs in");
     }
     if (std::filesystem::is_directory(path, error)) {
         return fault("F001", path, "this is a folder, expected a file", "name a file inside it");

@@ -34,12 +34,12 @@ tl::unexpected<Diagnostics> promisesMore(const std::string& name, const Header& 
 Result<Header> readHeader(Source& source, const std::string& name) {
     if (source.size() < kHeaderBytes) {
         return fault("T001", name,
-                                    "the file has " + std::to_string(source.size()) +
-                                        " bytes, expected at least the 160 bytes of a TressFX header",
-                                    "the file is cut off or is no .tfx file");
+                     "the file has " + std::to_string(source.size()) +
+                         " bytes, expected at least the 160 bytes of a TressFX header",
+                     "the file is cut off or is no .tfx file");
     }
     std::array<std::byte, kHeaderBytes> bytes = {};
-    if (!source.read(0, bytes)) return tl::unexpected(reading::cannotRead(name));
+    if (!source.read(0, bytes)) return reading::cannotRead(name);
     Header h;
     h.version = reading::valueAt<float>(bytes, 0);
     h.strands = reading::valueAt<std::uint32_t>(bytes, 4);
@@ -47,16 +47,15 @@ Result<Header> readHeader(Source& source, const std::string& name) {
     h.positions = reading::valueAt<std::uint32_t>(bytes, 12);
     if (!(h.version >= 4.0F && h.version < 5.0F)) {
         return fault("T002", name,
-                                    "the file starts with the version " + std::to_string(h.version) +
-                                        ", expected 4.0 (the number a TressFX 4 groom begins with)",
-                                    "export it as a TressFX 4 .tfx file");
+                     "the file starts with the version " + std::to_string(h.version) +
+                         ", expected 4.0 (the number a TressFX 4 groom begins with)",
+                     "export it as a TressFX 4 .tfx file");
     }
     if (h.strands == 0 || h.pointsPerStrand < 2) {
         return fault("T003", name,
-                                    "the header counts " + std::to_string(h.strands) + " strands of " +
-                                        std::to_string(h.pointsPerStrand) +
-                                        " points, expected at least 1 strand of at least 2 points",
-                                    "export the groom again");
+                     "the header counts " + std::to_string(h.strands) + " strands of " +
+                         std::to_string(h.pointsPerStrand) + " points, expected at least 1 strand of at least 2 points",
+                     "export the groom again");
     }
     if (h.positions < kHeaderBytes) {
         return fault(
@@ -66,13 +65,13 @@ Result<Header> readHeader(Source& source, const std::string& name) {
     }
     const std::uint64_t points = std::uint64_t{h.strands} * h.pointsPerStrand;
     if (!reading::fits(h.positions, points, kPointBytes, source.size())) {
-        return tl::unexpected(promisesMore(name, h, source.size()));
+        return promisesMore(name, h, source.size());
     }
     if (points > reading::kMaxVertices) {
         return fault("T007", name,
-                                    "the groom has " + std::to_string(points) + " points, more than the limit of " +
-                                        std::to_string(reading::kMaxVertices),
-                                    "export fewer strands; followers can be generated from guides");
+                     "the groom has " + std::to_string(points) + " points, more than the limit of " +
+                         std::to_string(reading::kMaxVertices),
+                     "export fewer strands; followers can be generated from guides");
     }
     return h;
 }
@@ -91,7 +90,7 @@ Result<Asset> reading::readTfx(Source& source, const std::string& name, Diagnost
     constexpr std::size_t kBlock = 65536;  // points
     for (std::size_t at = 0; at < strands.points.size(); at += block.size()) {
         block.resize(std::min(kBlock, strands.points.size() - at));
-        if (!source.read(header->positions + at * kPointBytes, block)) return tl::unexpected(cannotRead(name));
+        if (!source.read(header->positions + at * kPointBytes, block)) return cannotRead(name);
         for (std::size_t i = 0; i < block.size(); ++i) strands.points[at + i] = {block[i][0], block[i][1], block[i][2]};
     }
     return cleaned(std::move(strands), 'T', notes);

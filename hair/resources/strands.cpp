@@ -11,22 +11,17 @@ namespace {
 
 using rhi::BufferUsage;
 
-template <class T>
-tl::unexpected<Diagnostic> failed(const Result<T>& result) {
-    return tl::unexpected(result.error());
-}
-
 // Passes of a host's own may read what the vertex shader reads, and copies are how tests look at it.
 constexpr BufferUsage kUsage = BufferUsage::Storage | BufferUsage::CopySrc;
 
-tl::unexpected<Diagnostic> misfit(const char* code, const std::string& text, const std::string& hint) {
-    return tl::unexpected(Diagnostic{.code = code, .text = text, .hint = hint});
+tl::unexpected<Diagnostics> misfit(Code code, const std::string& text, const std::string& hint) {
+    return tl::unexpected<Diagnostics>(Diagnostic{.code = code, .text = text, .hint = hint});
 }
 
 Result<void> check(const Strands& strands) {
     const std::size_t points = strands.points.size();
     const auto wrong = [&](const std::string& what, std::size_t found, std::size_t expected) {
-        return misfit("H103",
+        return misfit("N005",
                       "the strands \"" + strands.name + "\" have " + std::to_string(found) + " " + what +
                           ", expected " + std::to_string(expected),
                       "give one for each, or none");
@@ -39,7 +34,7 @@ Result<void> check(const Strands& strands) {
         return wrong("ids", strands.ids.size(), strands.strandCount());
     for (std::uint32_t s = 0; s < strands.strandCount(); ++s) {
         if (strands.first[s] <= strands.first[s + 1] && strands.first[s + 1] <= points) continue;
-        return misfit("H103",
+        return misfit("N005",
                       "strand " + std::to_string(s) + " of \"" + strands.name + "\" has the points " +
                           std::to_string(strands.first[s]) + " to " + std::to_string(strands.first[s + 1]) + " of " +
                           std::to_string(points),
@@ -60,19 +55,19 @@ Result<void> writeBuffer(const rhi::Device& device, const rhi::Buffer& buffer, s
     constexpr std::size_t slice = std::size_t{1} << 20;
     for (std::size_t at = 0; at < bytes.size(); at += slice) {
         const auto part = bytes.subspan(at, std::min(slice, bytes.size() - at));
-        if (auto written = device.queue().writeBuffer(buffer, at, part); !written) return failed(written);
+        if (auto written = device.queue().writeBuffer(buffer, at, part); !written) return written;
     }
     return {};
 }
 
 Result<rhi::Buffer> uploadBuffer(const rhi::Device& device, const std::string& label, BufferUsage usage,
-                                  std::span<const std::byte> bytes) {
+                                 std::span<const std::byte> bytes) {
     const rhi::AdapterType type = device.info().type;
     const bool direct = type == rhi::AdapterType::CPU || type == rhi::AdapterType::IntegratedGPU;
     auto buffer = device.createBuffer({.label = label,
                                        .size = bytes.size(),
                                        .usage = usage | (direct ? BufferUsage::MapWrite : BufferUsage::CopyDst)});
-    if (!buffer) return failed(buffer);
+    if (!buffer) return buffer;
     if (direct) {
         std::memcpy(buffer->mapped().data(), bytes.data(), bytes.size());
         return *buffer;
@@ -156,16 +151,16 @@ Result<rhi::Buffer> MovingPoints::next(const rhi::Device& device, const std::str
     rhi::Buffer& buffer = turns_[turn_];
     if (buffer && buffer.size() == bytes) return buffer;
     auto made = device.createBuffer({.label = name + " points", .size = bytes, .usage = kUsage | BufferUsage::CopyDst});
-    if (!made) return failed(made);
+    if (!made) return made;
     buffer = *made;
     return buffer;
 }
 
 Result<void> MovingPoints::updateStarts(const rhi::Device& device, const std::string& name,
-                                         std::span<const glm::uvec2> ranges, const Strands& strands) {
+                                        std::span<const glm::uvec2> ranges, const Strands& strands) {
     if (starts_ && std::equal(ranges.begin(), ranges.end(), ranges_.begin(), ranges_.end())) return {};
     if (ranges.size() != strands.strandCount()) {
-        return misfit("H104",
+        return misfit("N006",
                       "the object \"" + name + "\" has " + std::to_string(ranges.size()) +
                           " ranges of moved points, expected the " + std::to_string(strands.strandCount()) +
                           " of its strands",
@@ -175,7 +170,7 @@ Result<void> MovingPoints::updateStarts(const rhi::Device& device, const std::st
     for (std::uint32_t s = 0; s < strands.strandCount(); ++s) {
         const std::uint32_t expected = strands.first[s + 1] - strands.first[s];
         if (ranges[s].y < ranges[s].x || ranges[s].y - ranges[s].x != expected) {
-            return misfit("H104",
+            return misfit("N006",
                           "strand " + std::to_string(s) + " of the object \"" + name + "\" has the moved points " +
                               std::to_string(ranges[s].x) + " to " + std::to_string(ranges[s].y) + ", expected " +
                               std::to_string(expected) + " of them",
@@ -192,7 +187,7 @@ Result<void> MovingPoints::updateStarts(const rhi::Device& device, const std::st
 }
 
 Result<void> MovingPoints::update(const rhi::Device& device, rhi::CommandEncoder& encoder, const std::string& name,
-                                   const MovedPoints& moved, const Strands& strands, const StrandBuffers& rest) {
+                                  const MovedPoints& moved, const Strands& strands, const StrandBuffers& rest) {
     const StrandBuffers last = std::move(now_);
     now_ = rest;
     if (moved.buffer) {
@@ -203,7 +198,7 @@ Result<void> MovingPoints::update(const rhi::Device& device, rhi::CommandEncoder
         }
         const std::uint64_t bytes = 12 * (moved.ranges.empty() ? strands.points.size() : pointCount_);
         if (moved.buffer.size() < bytes) {
-            return misfit("H104",
+            return misfit("N006",
                           "the buffer \"" + moved.buffer.label() + "\" lent to the object \"" + name + "\" has " +
                               std::to_string(moved.buffer.size()) + " bytes, expected at least " +
                               std::to_string(bytes),
@@ -216,7 +211,7 @@ Result<void> MovingPoints::update(const rhi::Device& device, rhi::CommandEncoder
         now_.points = *own;
     } else if (!moved.points.empty()) {
         if (moved.points.size() != strands.points.size()) {
-            return misfit("H104",
+            return misfit("N006",
                           "the object \"" + name + "\" has " + std::to_string(moved.points.size()) +
                               " moved points, expected the " + std::to_string(strands.points.size()) +
                               " of its strands",

@@ -14,7 +14,7 @@ namespace pelage::hair {
 /// A buffer with these bytes. Where device memory is the host's own they are written straight into it; elsewhere in
 /// slices that fit the queue's staging memory.
 Result<rhi::Buffer> uploadBuffer(const rhi::Device& device, const std::string& label, rhi::BufferUsage usage,
-                                  std::span<const std::byte> bytes);
+                                 std::span<const std::byte> bytes);
 /// Writes a buffer in slices that fit the queue's staging memory, which so is reused from frame to frame.
 Result<void> writeBuffer(const rhi::Device& device, const rhi::Buffer& buffer, std::span<const std::byte> bytes);
 
@@ -34,21 +34,21 @@ struct GpuStrands {
     std::uint32_t pieceCount = 0, pieceSegments = 1;  // segments between two points
     std::uint64_t segments = 0;                       // as drawn, subdivisions included
 };
-/// H103 when offsets or the arrays beside the points do not fit.
+/// N005 when offsets or the arrays beside the points do not fit.
 Result<GpuStrands> uploadStrands(const rhi::Device& device, const Strands& strands);
 
 /// The points of one object from frame to frame: two buffers that take turns while it moves.
 class MovingPoints {
 public:
-    /// Takes this frame's points into `buffers`, and makes those of the last frame the previous ones. H104 when they do
+    /// Takes this frame's points into `buffers`, and makes those of the last frame the previous ones. N006 when they do
     /// not fit the strands.
     Result<void> update(const rhi::Device& device, rhi::CommandEncoder& encoder, const std::string& name,
-                         const MovedPoints& moved, const Strands& strands, const StrandBuffers& rest);
+                        const MovedPoints& moved, const Strands& strands, const StrandBuffers& rest);
     const StrandBuffers& buffers() const { return now_; }
 
 private:
     Result<void> updateStarts(const rhi::Device& device, const std::string& name, std::span<const glm::uvec2> ranges,
-                               const Strands& strands);
+                              const Strands& strands);
     Result<rhi::Buffer> next(const rhi::Device& device, const std::string& name, std::uint64_t bytes);
 
     StrandBuffers now_ = {};

@@ -35,7 +35,7 @@ inline constexpr std::uint32_t fewStrands = 16000;
 /// What a scene file and a lone asset ask for when they say nothing: follow strands for what can only be guides, and a
 /// width that covers a head for strands that state none. Each is said in a note.
 inline Strands withDefaultPolicies(Strands strands, const std::string& path, Diagnostics& notes) {
-    const auto note = [&](const char* code, const std::string& text) {
+    const auto note = [&](Code code, const std::string& text) {
         notes.add({.severity = Severity::Note, .code = code, .file = path, .text = text});
     };
     if (const std::uint32_t count = strands.strandCount(); count < fewStrands) {

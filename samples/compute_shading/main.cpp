@@ -12,11 +12,7 @@ namespace {
 using namespace pelage;
 
 Result<void> run(bool validation) {
-    const auto failed = [](Diagnostic diagnostic) {
-        Diagnostics all;
-        all.add(std::move(diagnostic));
-        return tl::unexpected(std::move(all));
-    };
+    const auto failed = [](Diagnostics faults) { return tl::unexpected<Diagnostics>(std::move(faults)); };
     hair::Library library(PELAGE_DATA_DIR);
     auto material = sample::shadingMaterial(library);
     auto tree = library.passTree(SAMPLE_DIR "/shading.pass.json");
@@ -50,7 +46,7 @@ Result<void> run(bool validation) {
                     truth[i].b);
     }
     std::fprintf(stderr, "largest difference %.2e of the largest radiance\n", error / largest);
-    if (complaints > 0) return failed({.code = "A031", .text = "the validation layer found errors"});
+    if (complaints > 0) return failed(Diagnostic{.code = "A031", .text = "the validation layer found errors"});
     return {};
 }
 

@@ -54,7 +54,7 @@ Result<materials::Material> shadingMaterial(hair::Library& library) {
                                           {"absorption.sigma", "0.2,0.4,0.9"},
                                           {"scattering.longitudinalRoughness", "0.3"},
                                           {"scattering.azimuthalRoughness", "0.25"}}) {
-        if (auto fault = material.setFromText(property, value)) faults.add(std::move(*fault));
+        faults.append(material.setFromText(property, value));
     }
     if (faults.hasErrors()) return tl::unexpected(std::move(faults));
     return material;
@@ -72,9 +72,9 @@ std::vector<glm::vec4> strand(std::size_t count) {
 hair::Scene shadingScene(materials::Material material) {
     hair::Scene scene;
     // The pass reads points of its own; what the object is drawn with does not matter to it.
-    const hair::Groom groom = hair::makeGroom({.style = hair::Style::Straight, .strands = 1, .pointsPerStrand = 4});
+    hair::Strands groom = hair::makeGroom({.style = hair::Style::Straight, .strands = 1, .pointsPerStrand = 4});
     scene.objects.push_back({.name = "strand",
-                             .geometry = std::make_shared<hair::Geometry>(hair::toLines(groom, 1, hair::headCenter())),
+                             .geometry = std::make_shared<const hair::Strands>(std::move(groom)),
                              .material = std::move(material),
                              .transform = glm::rotate(glm::translate(glm::mat4(1.0F), {0.1F, 0.2F, -0.1F}), 0.4F,
                                                       glm::vec3(0.6F, 0, 0.8F))});
@@ -86,7 +86,7 @@ hair::Scene shadingScene(materials::Material material) {
 
 Result<std::vector<glm::vec4>> shadeOnDevice(const rhi::Device& device, std::shared_ptr<const passes::PassTree> tree,
                                               hair::Scene& scene, std::span<const glm::vec4> points) {
-    const auto failed = [](const Diagnostic& error) { return tl::unexpected(hair::toDiagnostic(error)); };
+    const auto failed = [](Diagnostics faults) { return tl::unexpected<Diagnostics>(std::move(faults)); };
     auto renderer = hair::Renderer::create(
         {.device = device, .tree = std::move(tree), .shaders = embeddedShader, .materialPasses = {shadePoints()}});
     if (!renderer) return tl::unexpected(renderer.error());

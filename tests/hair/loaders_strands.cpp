@@ -203,7 +203,7 @@ TEST(Assets, RealGroomIsRead) {
     if (folder == nullptr) GTEST_SKIP() << "PELAGE_ASSETS does not name the folder of real assets";
     const std::string path = std::string(folder) + "/strands/ratboy/Ratboy_mohawk.tfx";
     const auto asset = loadAsset(path);
-    ASSERT_TRUE(asset) << asset.error().text();
+    ASSERT_TRUE(asset) << asset.error().first().text;
     const Strands& groom = std::get<Strands>(asset->asset);
     EXPECT_EQ(groom.strandCount(), 2228U);
     expectSound(groom);

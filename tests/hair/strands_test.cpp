@@ -397,30 +397,30 @@ TEST_F(MovingStrands, MisfitsAreNamed) {
     hair::Scene moving = scene(shared(groom()));
     const auto codeOf = [&] {
         auto picture = renderer().render(moving, {.width = 32, .height = 32});
-        return picture ? std::string() : picture.error().code;
+        return picture ? std::string() : std::string(picture.error().first().code.text());
     };
     const std::vector<glm::vec3> few(7);
     moving.objects[1].moved.points = few;
-    EXPECT_EQ(codeOf(), "H104");
+    EXPECT_EQ(codeOf(), "N006");
     const rhi::Buffer small =
         *Gpu::get().device.createBuffer({.label = "small", .size = 64, .usage = rhi::BufferUsage::CopySrc});
     moving.objects[1].moved = {.buffer = small};
-    EXPECT_EQ(codeOf(), "H104");
+    EXPECT_EQ(codeOf(), "N006");
     const std::vector<glm::uvec2> ranges(groom().strandCount(), glm::uvec2(0, 5));
     moving.objects[1].moved = {.buffer = small, .ranges = ranges};
-    EXPECT_EQ(codeOf(), "H104");
+    EXPECT_EQ(codeOf(), "N006");
     moving.objects[1].moved = {.buffer = small, .ranges = std::span(ranges).first(3)};
-    EXPECT_EQ(codeOf(), "H104");
+    EXPECT_EQ(codeOf(), "N006");
     moving.objects[1].moved = {};
     EXPECT_EQ(codeOf(), "");
     hair::Strands odd = groom();
     odd.widths.pop_back();
     moving.objects[1].geometry = shared(odd);
-    EXPECT_EQ(codeOf(), "H103");
+    EXPECT_EQ(codeOf(), "N005");
     odd = groom();
     std::swap(odd.first[3], odd.first[4]);
     moving.objects[1].geometry = shared(odd);
-    EXPECT_EQ(codeOf(), "H103");
+    EXPECT_EQ(codeOf(), "N005");
 }
 
 // Blended strands are drawn from the farthest segment to the nearest.

@@ -81,7 +81,7 @@ protected:
     void expectKept(const std::string& why) {
         const LiveStage::Polled polled = live_->poll();
         ASSERT_EQ(polled.change, LiveStage::Change::Kept) << why;
-        const std::string line = lineOf(polled.error);
+        const std::string line = app::lineOf(polled.error);
         EXPECT_NE(line.find(why), std::string::npos) << line;
         ASSERT_EQ(polled.notes.items().size(), 1U);
         const std::string note = toString(polled.notes.items().front());
@@ -93,7 +93,7 @@ protected:
     /// One look: the edit is taken, and the picture is another.
     void expectTaken() {
         const LiveStage::Polled polled = live_->poll();
-        ASSERT_EQ(polled.change, LiveStage::Change::Taken) << polled.error;
+        ASSERT_EQ(polled.change, LiveStage::Change::Taken) << polled.error.text();
         const std::vector<std::uint8_t> now = picture();
         EXPECT_NE(now, last_);
         last_ = now;
@@ -204,7 +204,7 @@ TEST_F(Reload, IncludedFilesAreWatched) {
     expectKept("more.pass.json");
     write("more.pass.json", R"({ "format": "pelage.passtree/1", "drawLists": ["other"] })");
     const LiveStage::Polled polled = live_->poll();
-    EXPECT_EQ(polled.change, LiveStage::Change::Taken) << polled.error;
+    EXPECT_EQ(polled.change, LiveStage::Change::Taken) << polled.error.text();
 }
 
 }  // namespace

@@ -112,7 +112,7 @@ TEST_F(MaterialInCompute, RadianceIsWhatTheModelSays) {
                                        {"absorption.mode", "sigma"},
                                        {"absorption.sigma", "0.2,0.4,0.9"}}) {
             const auto wrong = material.setFromText(id, text);
-            ASSERT_FALSE(wrong) << wrong->text;
+            ASSERT_TRUE(wrong.empty()) << wrong.text();
         }
         std::vector<Query> queries;
         std::vector<hair::FiberDirections> directions;

@@ -44,7 +44,7 @@ TEST(EleventhModel, IsAWordOfMaterialFiles) {
     ASSERT_TRUE(type) << type.error().text();
     EXPECT_EQ((*type)->warnings().text(), "");
     materials::Material material(*type);
-    EXPECT_FALSE(material.setFromText("scattering.model", "even"));
+    EXPECT_TRUE(material.setFromText("scattering.model", "even").empty());
     const materials::CompiledMaterial& compiled = material.compile();
     const auto option = std::find_if(compiled.options.begin(), compiled.options.end(),
                                      [](const auto& each) { return each.name == "scatteringModel"; });
