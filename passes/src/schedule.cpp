@@ -47,8 +47,8 @@ private:
         if (pass != none) roots_.push_back(pass);
     }
 
-    // Only data keeps a pass: that it must come before another one does not. A pass whose result the next frame reads is
-    // a root of its own, because it need not come before the pass that reads it.
+    // Only data keeps a pass: that it must come before another one does not. A pass whose result the next frame reads
+    // is a root of its own, because it need not come before the pass that reads it.
     void keepInputs(std::uint32_t root) {
         open_.push_back(root);
         while (!open_.empty()) {

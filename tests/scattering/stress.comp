@@ -131,7 +131,7 @@ void main() {
                     m.deviation.x >= 0.17768 && m.betaN >= 0.2 && m.eta >= 1.2 && m.eta <= 2.0 &&
                     m.sigmaA.x <= 4.0 && abs(m.alpha) <= 0.1;
     if (nonsense) {
-        // A material of numbers that no material has: vectors alone are mended by fiberAngles() before a model sees them.
+        // Numbers that no material has: vectors alone are mended by fiberAngles() before a model sees them.
         float kind = next(), zero = next() * 0.0;
         if (kind < 0.2) m.inverseVariance *= zero / zero;
         else if (kind < 0.4) m.sigmaA = vec3(zero / zero);
