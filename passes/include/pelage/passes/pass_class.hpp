@@ -84,9 +84,10 @@ struct PassSetup {
     PassParameters parameters;
     const ShaderSource& shaders;  // the graph's
 
-    /// The stage of a pipeline of this pass: the module with those of its specialization constants that the file gives a
-    /// value ("constants": {"samples": 4}), else what the images say of themselves (<bind>_samples, <bind>_present).
-    /// A constant of the file that is in no stage asked for here is an error of the build (P077).
+    /// The stage of a pipeline of this pass: the module with those of its specialization constants that the file gives
+    /// a value ("constants": {"samples": 4}), else what the images say of themselves (u_depth_samples and
+    /// u_depth_present for the bind u_depth). A constant of the file that is in no stage asked for here is an error of
+    /// the build (P077).
     rhi::ProgrammableStage stage(const rhi::ShaderModule& module) const;
     /// All constants of the file, for a class that makes its pipelines later: none of them is an error then.
     const std::map<std::string, double>& constants() const;

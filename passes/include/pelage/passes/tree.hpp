@@ -76,8 +76,8 @@ struct PassClassInfo {
     std::vector<ParameterInfo> parameters = {};
 };
 
-/// The class that records raster passes: `"kind": "raster", "drawList": "forward"` in a file. The host registers
-/// it as any other class; PlanPass::drawList and ::view tell one pass from another.
+/// The class that records raster passes: `"kind": "raster", "drawList": "forward"` in a file. The host registers it
+/// as any other class; PlanPass::drawList and PlanPass::view tell one pass from another.
 inline constexpr std::string_view drawListClass = "DrawList";
 
 struct PlanResource;
