@@ -24,7 +24,7 @@ TEST(Diagnostic, IsOneLineOfJsonWhateverTheTextHolds) {
     EXPECT_EQ(
         odd,
         "{\"file\":\"a\\\\b\",\"line\":0,\"column\":0,\"severity\":\"note\",\"code\":\"V007\","
-        "\"text\":\"line\\u000abreak \\u0001 \\ufffd \xc3\xa9 \\ufffd\\ufffd\\ufffd\",\"hint\":\"\",\"related\":[]}");
+        "\"text\":\"line\\u000abreak \\u0001 \\ufffd \xc3\xa9 \\ufffd\\ufffd\\ufffd\",\"hint\":\"\",\"context\":[],\"related\":[]}");
 }
 
 TEST(Diagnostic, PlacesInItsSentencesAreRelated) {

@@ -12,12 +12,12 @@ using namespace pelage;
 
 TEST(Mutation, DamagedBytesGiveAPlaceInsideTheText) {
     std::stringstream stream;
-    stream << std::ifstream(std::string(PELAGE_SCHEMAS) + "/hair.materialtype.json").rdbuf();
+    stream << std::ifstream(PELAGE_SOURCE_DIR "/hair/data/types/hair.materialtype.json").rdbuf();
     const std::string original = stream.str();
     ASSERT_GT(original.size(), 1000U);
     const auto schemaText = [] {
         std::stringstream text;
-        text << std::ifstream(std::string(PELAGE_SCHEMAS) + "/materialtype.schema.json").rdbuf();
+        text << std::ifstream(PELAGE_SOURCE_DIR "/materials/data/materialtype.schema.json").rdbuf();
         return text.str();
     }();
     const auto schema = json::Schema::parse(schemaText, "schema");

@@ -185,8 +185,9 @@ TEST(Schema, HostileDocumentsAndSchemasEnd) {
 }
 
 TEST(Schema, ShippedSchemasAreInsideTheSubset) {
-    for (const char* name : {"/materialtype.schema.json", "/material.schema.json"}) {
-        const std::string text = readFile(std::string(PELAGE_SCHEMAS) + name);
+    for (const char* name : {"/materials/data/materialtype.schema.json", "/materials/data/material.schema.json",
+                             "/passes/data/passtree.schema.json", "/hair/data/schemas/scene.schema.json"}) {
+        const std::string text = readFile(std::string(PELAGE_SOURCE_DIR) + name);
         ASSERT_FALSE(text.empty());
         const auto schema = json::Schema::parse(text, name);
         EXPECT_TRUE(schema) << schema.error().text();

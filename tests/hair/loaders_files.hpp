@@ -135,7 +135,8 @@ void expectFault(const Result<T>& outcome, const std::string& code) {
     EXPECT_EQ(outcome.error().first().code.text(), code) << outcome.error().first().text;
     EXPECT_EQ(outcome.error().first().severity, Severity::Error);
     EXPECT_FALSE(outcome.error().first().text.empty());
-    EXPECT_EQ(outcome.error().text().find('\n'), std::string::npos);
+    EXPECT_EQ(outcome.error().items().size(), 1U) << outcome.error().text();
+    EXPECT_EQ(toString(outcome.error().first()).find('\n'), std::string::npos);
 }
 
 /// Every prefix (or a thousand of them) and `rounds` versions with a few bytes changed.

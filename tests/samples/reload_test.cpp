@@ -134,7 +134,7 @@ TEST_F(Reload, BrokenMaterialsAndTypesAreNotTaken) {
     expectKept("groups");
     write("hair.materialtype.json", good);
     const LiveStage::Polled back = live_->poll();
-    EXPECT_EQ(back.change, LiveStage::Change::Taken) << back.error;
+    EXPECT_EQ(back.change, LiveStage::Change::Taken) << back.error.text();
     EXPECT_EQ(picture(), last_) << "as it was";
 }
 
