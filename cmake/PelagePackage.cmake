@@ -8,8 +8,8 @@ set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/pelage)
 set(data_dir ${CMAKE_INSTALL_DATADIR}/pelage)
 set(generated ${CMAKE_CURRENT_BINARY_DIR}/package)
 
-# pelage_install_library(NAME HEADERS dir): one component, which is one file of targets, so that whoever asks for rhi
-# never needs what hair links. What a component needs stands in pelageConfig.cmake.in.
+# pelage_install_library(NAME HEADERS dir): one component, which is one file of targets, so that a project that
+# asks for rhi never needs what hair links. What a component needs stands in pelageConfig.cmake.in.
 function(pelage_install_library name)
   cmake_parse_arguments(ARG "" "HEADERS" "" ${ARGN})
   install(TARGETS pelage_${name} EXPORT pelage-${name}

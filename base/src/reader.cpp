@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // rapidjson decides what is JSON; this file keeps the places. rapidjson does not tell where a token began, but it calls
-// the handler right after each token, so the next one begins at the first byte after that which is no blank, comment,
+// the handler right after each token, so the next one begins at the first byte after it that is not a blank, comment,
 // comma or colon.
 #include "syntax.hpp"
 

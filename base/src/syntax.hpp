@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// What a person is told when a text is no JSON: rapidjson says that it stopped, this says what was expected there.
+// What a person is told when a text is not JSON: rapidjson says where it stopped, this file what was expected there.
 #pragma once
 
 #include <pelage/base/json.hpp>

@@ -107,7 +107,7 @@ private:
         return {};
     }
 
-    /// The default scene's nodes; without scenes, every node that is nobody's child.
+    /// The default scene's nodes; without scenes, every node that has no parent.
     std::vector<int> roots() const {
         if (!model_.scenes.empty()) {
             const auto scene = static_cast<std::size_t>(std::max(model_.defaultScene, 0));

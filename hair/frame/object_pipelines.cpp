@@ -119,7 +119,7 @@ Result<void> Renderer::State::updatePipelines(ObjectState& object, const Object&
             object.next.reset();
             return tl::unexpected(std::move(problem));
         }
-        // The last good one stays; it is said once.
+        // The last good pipelines stay; the fault is noted once.
         if (!object.next->failureSaid) frame.notes.append(problem);
         object.next->failureSaid = true;
     } else if (object.next->isReady()) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Pipelines by what they are made of. A request gives a handle at once; the pipeline is made in the call or, in the
-// background, by one thread that ends with this object. Equal requests share one pipeline, which stays: what a material
-// was switched away from is there when it is switched back.
+// background, by one thread that ends with this object. Equal requests share one pipeline, which is kept: a material
+// that is switched back to earlier options finds its pipeline there.
 #pragma once
 
 #include <pelage/hair/renderer.hpp>

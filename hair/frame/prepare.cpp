@@ -25,7 +25,7 @@ Result<void> Renderer::State::buildGraph(const Scene& scene, const FrameSettings
         if (texture) wanted.imports[name] = {true, texture.format(), texture.size(), texture.sampleCount()};
     for (const auto& [name, buffer] : settings.buffers)
         if (buffer) wanted.imports[name] = {true, rhi::TextureFormat::Undefined, {}, 1};
-    // Nobody can ask this renderer for its depth, so that need not outlive the passes that test against it.
+    // The renderer gives its depth to no caller, so depth need not outlive the passes that test against it.
     for (const std::string& name : tree->exports())
         if (name == "Depth") wanted.unwantedExports.push_back(name);
     shadowSize = 1;

@@ -31,8 +31,8 @@ struct ObjectBlock {
     glm::uvec4 strides = {};
 };
 
-// The pipelines of one object: of the shaders of its material as they were, one for each pass that draws or dispatches
-// one of them. The object is drawn when all of them are ready, never by half.
+// The pipelines of one object, for the shaders of its material as they were when the pipelines were asked for: one for
+// each pass that draws or dispatches one of the shaders. The object is drawn when all of its pipelines are ready.
 struct ObjectPipelines {
     std::shared_ptr<const materials::MaterialType> type = {};
     bool strands = false, isEmpty = false;
@@ -104,7 +104,7 @@ struct Renderer::State {
     passes::HostDescription host;  // of the built graph
     bool built = false;
     std::uint64_t graphBuilds = 0;
-    // Types that were checked against the tree and their shaders; held, so that none of another type has its address.
+    // Types that were checked against the tree and their shaders; held, so that no other type gets the address of one.
     std::vector<std::shared_ptr<const materials::MaterialType>> checkedTypes;
     FrameReport frame;
     // What the scene does not require is switched off for this frame whatever the material says.

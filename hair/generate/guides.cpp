@@ -42,7 +42,7 @@ vec3 combed(const Root& root, const vec3& normal) {
     return unit(onSurface(away + back + swirl + 0.5F * kDown, normal), kDown);
 }
 
-/// Pushes strands that hang in front of the face to their side: nobody combs hair over the nose.
+/// Pushes strands that hang in front of the face to their side: hair is not combed over the nose.
 vec3 offTheFace(const vec3& p, float side) {
     if (p.z < 0.0F || p.y > 1.70F) return vec3(0);
     const float inFront = std::clamp((p.z - 0.005F) / 0.05F, 0.0F, 1.0F);

@@ -7,7 +7,7 @@
 namespace pelage::hair {
 
 /// Metres to the surface, negative inside. Exact enough near the surface (gradient length within about 15 % of 1 within
-/// a centimetre); a lower bound in spirit only, far away.
+/// a centimetre); far away it is only roughly a lower bound.
 float headDistance(const glm::vec3& p);
 /// Unit, away from the surface.
 glm::vec3 headNormal(const glm::vec3& p);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Directions that are there whatever the numbers are, and a hash that is the same everywhere.
+// Unit directions with a fallback for vectors that have none, and a hash that is the same on every machine.
 #pragma once
 
 #include <glm/glm.hpp>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A compiled material joined to a shader: its uniform block filled by member names, its textures by names, its
 // specialization constants by names. Names are resolved once for each object and layout. Nothing here knows one
-// material type from another; what does not fit was refused by material_check.hpp.
+// material type from another; what does not fit was refused by check.hpp.
 #pragma once
 
 #include "resources/uploads.hpp"

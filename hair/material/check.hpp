@@ -12,8 +12,9 @@
 namespace pelage::hair {
 
 /// M051: a member of a block of set 2, a texture or another resource of set 2 that the inputs do not fill as declared.
-/// M052 (warning): an input that no shader reads. M050 (warning): an option that is no specialization constant of any
-/// shader. The warnings need all shaders of the type; where `module` gives an empty one, what is missing is not known.
+/// M052 (warning): an input that no shader reads. M050 (warning): an option of which no shader has a specialization
+/// constant. The warnings need all shaders of the type; where `module` gives an empty one, what is missing is not
+/// known.
 Diagnostics checkShaders(const materials::MaterialType& type,
                          const std::function<rhi::ShaderModule(const std::string& file)>& module);
 

@@ -223,7 +223,7 @@ Result<void> MovingPoints::update(const rhi::Device& device, rhi::CommandEncoder
         if (auto written = writeBuffer(device, *own, bytes); !written) return written;
         now_.points = *own;
     }
-    // Points of another layout are no earlier place of the same points.
+    // Points of another layout are not where the same points were before.
     const bool follows = last.points && last.first == now_.first && last.starts == now_.starts;
     now_.previousPoints = follows ? last.points : now_.points;
     return {};

@@ -35,7 +35,7 @@ public:
     Result<rhi::TextureView> texture(const std::string& reference, bool srgb);
     /// A 16 x 16 cube of irradiance, RGBA16Float; rewritten only when the environment changed.
     Result<rhi::Texture> irradiance(const Environment& environment);
-    /// Forgets geometry that nobody else holds.
+    /// Forgets geometry that no scene holds any more.
     void collect();
 
 private:

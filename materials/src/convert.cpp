@@ -84,7 +84,7 @@ double rounded(double number) {
 Result<Value> fromNumbers(const Property& property, const std::vector<double>& numbers,
                           const std::vector<double>& written, Diagnostics& warnings) {
     const Range range = rangeOf(property);
-    // A range is told in the space the person wrote in, without the noise of the round trip.
+    // A range is reported in the space that the person wrote in, without the noise of the round trip.
     const bool isEncoded = property.type == ValueType::Color && property.srgb && &numbers != &written;
     const auto bound = [&](double linear) {
         if (!isEncoded || std::abs(linear) > 1e3) return shown(linear);

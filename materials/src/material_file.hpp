@@ -14,7 +14,7 @@ struct MaterialReader {
     std::vector<json::Document> chain = {};  // the file, its parent, the parent's parent, ...
     std::shared_ptr<const MaterialType> type = {};
 
-    /// Reads everything; `chain` and `type` are kept for whoever wants more than the material.
+    /// Reads everything; `chain` and `type` are kept for callers that want more than the material.
     Result<Material::Parsed> run(Result<json::Document> document);
 
 private:

@@ -39,7 +39,7 @@ private:
         const Place place = !says ? Place{} : draws ? says->drawListPlace : says->classPlace;
         const PassClass* found = classes_.find(pass.passClass);
         if (!found) {
-            // The host described a class to the linker that the graph's registry lacks, or nobody draws lists.
+            // The host described a class to the linker that the graph's registry lacks, or registered none for lists.
             reporter_.error(
                 place, "P053",
                 "pass '" + pass.name + "': " +
@@ -194,7 +194,7 @@ private:
         return layout;
     }
 
-    // Made once now to hear what does not fit; groups with images of the host wait for the frame.
+    // Made once now to find what does not fit; groups with images of the host wait for the frame.
     void checkGroup(std::size_t index, const rhi::BindGroupLayout& layout) {
         for (const PlanSlot& slot : state_.plan.passes[index].slots) {
             if (slot.resource != ~0U && state_.plan.resources[slot.resource].kind == PlanResource::Kind::Import) return;

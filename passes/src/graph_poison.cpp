@@ -9,7 +9,7 @@ namespace pelage::passes {
 
 namespace {
 
-// Not a number where there is such a thing, magenta in formats that hold 0..1, a number nobody writes in the others.
+// Not a number where there is such a thing, magenta in formats that hold 0..1, an unlikely number in the others.
 rhi::Color loud(rhi::TextureFormat format) {
     const std::string_view name = rhi::name(format);
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();

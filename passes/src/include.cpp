@@ -48,7 +48,8 @@ public:
 private:
     enum class State : std::uint8_t { Open, Done };
 
-    // What a file includes is laid down before it, so that it may speak of it; order matters to nothing else.
+    // What a file includes is laid down before the file itself, whose members may name it; apart from that the order
+    // does not matter.
     void take(json::Document document, Place from) {
         if (!schema()) return out_.append(schema().error());
         const Diagnostics faults = schema()->validate(document);

@@ -123,7 +123,7 @@ private:
         made.resource = linker_.resources[version.resource].index;
         if (version.producer != none) made.producer = linker_.passes[version.producer].place;
         if (linked.out != none) made.makes = linker_.versions[linked.out].number;
-        // An image of ours that nobody has written begins here; a lent one has what the host put into it.
+        // An image of ours that no pass has written begins here; a lent one has what the host put into it.
         const PlanResource& image = plan_.resources[made.resource];
         if (image.mipLevels > 1) made.level = levelOf(says);
         const bool ours = image.kind == PlanResource::Kind::Transient;

@@ -69,7 +69,7 @@ struct Linker {
     std::uint64_t visits = 0;
     Plan plan = {};
 
-    // link_conditions.cpp: settings, imports, views, which passes are on (H001..H004).
+    // link_conditions.cpp: settings, imports, views, which passes are on (P080..P084).
     void evaluateConditions();
     double number(const NumberOrSetting& value) const;    // pixels, samples, views
     double constant(const NumberOrSetting& value) const;  // an enum gives the index of its word

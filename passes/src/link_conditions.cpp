@@ -4,7 +4,7 @@
 namespace pelage::passes {
 namespace {
 
-// The value in force, or nothing with H003 reported.
+// The value in force, or nothing with P082 reported.
 std::optional<SettingValue> checkedSetting(const SettingDeclaration& declared, const SettingValue& given,
                                            Reporter& reporter) {
     const SettingInfo& info = declared.info;

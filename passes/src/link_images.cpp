@@ -430,7 +430,7 @@ private:
                                    "' and '" + b.name + "' differ in kind, format, size, levels or samples");
     }
 
-    // One image twice in a pass is fine while nobody writes it.
+    // One image twice in a pass is fine while the pass only reads it.
     void conflicts(const LinkedPass& pass) {
         const std::span<const LinkedSlot> slots = linker_.slotsOf(pass);
         for (std::size_t i = 0; i < slots.size(); ++i) {

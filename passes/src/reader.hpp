@@ -35,7 +35,7 @@ Place placeOf(const json::Value& object, std::string_view key);  // of the value
 NumberOrSetting numberOrSetting(const json::Value& value);
 std::uint32_t wholeNumber(double number, std::uint32_t otherwise = 0);
 SlotAccess accessOf(const json::Value& object);
-/// One reference or a list of them. Reports P015 for what is no reference.
+/// One reference or a list of them. Reports P015 for what is not a reference.
 std::vector<Reference> readReferences(const json::Value& value, Reporter& reporter);
 
 template <class F>

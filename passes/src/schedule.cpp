@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Which passes run, and in which order. The order is a walk from the exports towards the sources: a pass comes after
 // what its slots need, in the order of its slots. It depends on exports and slots only, never on where a pass stands in
-// the file, and it keeps a result close to its reader, so that images live shortly.
+// the file, and it keeps a result close to its reader, so that images have short lifetimes.
 #include "link.hpp"
 
 #include <random>
@@ -47,8 +47,8 @@ private:
         if (pass != none) roots_.push_back(pass);
     }
 
-    // Only data keeps a pass: that it must come before another one does not. Who is read by the next frame is a root of
-    // its own, for it need not come before its reader.
+    // Only data keeps a pass: that it must come before another one does not. A pass whose result the next frame reads
+    // is a root of its own, because it need not come before the pass that reads it.
     void keepInputs(std::uint32_t root) {
         open_.push_back(root);
         while (!open_.empty()) {
@@ -78,7 +78,7 @@ private:
             const std::string& name = pass.says->name;
             culled[name] =
                 name + ": " + (pass.enabled ? "no export needs its result" : "switched off, " + linker_.whyOff(pass));
-            // What this host does not want is no fault of the file.
+            // An export that this host does not want is not a fault of the file.
             if (!pass.enabled || !linker_.host.unwantedExports.empty()) continue;
             linker_.reporter.warning(pass.says->namePlace, "P048",
                                      "pass '" + name + "' is culled: no export needs its result",
@@ -95,7 +95,7 @@ private:
             ++linker_.visits;
             if (slot.in != none) use(linker_.versions[slot.in].producer);
         }
-        // Who reads an image as it was must be done before it is changed.
+        // A pass that reads an image as it was must be done before the image is changed.
         for (const LinkedSlot& slot : linker_.slotsOf(pass)) {
             if (slot.out == none || linker_.versions[slot.in].readers.empty()) continue;
             std::vector<std::uint32_t> readers = linker_.versions[slot.in].readers;

@@ -93,7 +93,7 @@ Result<void> Buffer::mapAsync(std::function<void(std::span<std::byte>)> ready) c
             ErrorCode::NotMapped,
             detail::cat(object_->describe(), " has the usage ", detail::usageNames(object_->descriptor.usage),
                         "; MapRead or MapWrite is needed for mapAsync().")));
-    // What waits in the graveyard must not hold what holds the device.
+    // The device holds this callback, so the callback must not hold a buffer, which holds the device.
     device.bury(object_->lastUse, [buffer = std::weak_ptr(object_), tell = std::move(ready)](detail::DeviceObject& d) {
         if (const auto alive = buffer.lock()) tell(d.lost ? std::span<std::byte>() : Buffer(alive).mapped());
     });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// Instance, adapter and device behind their handles, and what a device does for all its children: errors, burial,
-// descriptor pools, caches, the queue.
+// Instance, adapter and device behind their handles, and what a device does for all its children: errors,
+// destruction after the last use, descriptor pools, caches, the queue.
 #pragma once
 
 #include <deque>

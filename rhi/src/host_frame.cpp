@@ -14,7 +14,7 @@ constexpr VkAccessFlags2 writeAccess = VK_ACCESS_2_SHADER_WRITE_BIT | VK_ACCESS_
                                        VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_2_TRANSFER_WRITE_BIT |
                                        VK_ACCESS_2_HOST_WRITE_BIT | VK_ACCESS_2_MEMORY_WRITE_BIT;
 
-/// The host's last use as if it were a write just now: whoever comes next waits for it and sees it.
+/// The host's last use as if it were a write just now: the next use waits for it and sees what it wrote.
 AccessState stateFrom(const DeviceObject& device, VkImageLayout layout, VkPipelineStageFlags2 stages,
                       VkAccessFlags2 access) {
     return {.layout = layout,

@@ -72,7 +72,7 @@ std::uint64_t DeviceObject::completed() {
     std::uint64_t signalled = 0;
     if (const auto r = functions.vkGetSemaphoreCounterValue(handle, queue.timeline, &signalled); r != VK_SUCCESS) {
         if (r == VK_ERROR_DEVICE_LOST && !lost) report(vulkanError(r, "vkGetSemaphoreCounterValue", "the queue"));
-        return knownCompleted;  // out of memory: nothing new is known, and whoever waits will ask again
+        return knownCompleted;  // out of memory: nothing new is known, and a caller that waits asks again
     }
     // Everything before the oldest that may still run is done.
     const std::lock_guard lock(timelineMutex);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
-// The objects behind the handles. Each child of a device keeps the device alive; when it goes, its Vulkan objects are
-// buried in the device with the timeline value of their last use.
+// The objects behind the handles. Each child of a device keeps the device alive; when it goes, the device keeps its
+// Vulkan objects until the timeline has reached the value of their last use, and then destroys them.
 #pragma once
 
 #include <pelage/rhi/device.hpp>
@@ -64,7 +64,7 @@ struct TextureObject final : Object, std::enable_shared_from_this<TextureObject>
     std::uint64_t bytes = 0;
     std::function<void()> onRelease;
     bool ownsImage = true;  // false: a swapchain's or a host's
-    // Under the queue's mutex. Shared, because a heap must know how a texture was used that is gone by now.
+    // Under the queue's mutex. Shared, because a heap must still know how a texture was used when the texture is gone.
     std::shared_ptr<TextureState> state = std::make_shared<TextureState>();
     std::shared_ptr<TransientHeapObject> heap;
     std::mutex viewMutex;
@@ -183,7 +183,7 @@ struct QuerySetObject final : Object {
     ~QuerySetObject() override;
     QuerySetDescriptor descriptor;
     VkQueryPool handle = VK_NULL_HANDLE;
-    std::vector<bool> written;  // under the queue's mutex; a query nobody wrote resolves to zero
+    std::vector<bool> written;  // under the queue's mutex; a query that was never written resolves to zero
 };
 
 /// The object of a handle, or an error that says which argument was empty.

@@ -43,7 +43,7 @@ struct Recording {
         handle.shared();
     }
     {
-        // Usually this recording was the last to keep it; another thread's encoder only makes the question dearer.
+        // Usually this recording was the last to keep the object; where another encoder was, the map is asked.
         if (handle.get()->keptBy.load(std::memory_order_relaxed) != id) keep(std::shared_ptr<Object>(handle.shared()));
     }
 };

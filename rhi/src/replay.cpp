@@ -130,7 +130,7 @@ void Replay::resolveQueries(const packet::ResolveQueries& p) {
     const auto& f = device_.functions;
     const std::uint64_t size =
         p.set->descriptor.type == QueryType::Timestamp ? sizeof(std::uint64_t) : sizeof(PipelineStatistics);
-    // Waiting for a query that nobody wrote would wait for ever: such queries are zero.
+    // Waiting for a query that was never written would wait for ever: such queries are zero.
     std::uint32_t i = p.first;
     while (i < p.first + p.count) {
         const bool written = p.set->written[i];

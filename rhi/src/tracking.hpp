@@ -101,7 +101,7 @@ struct TextureState {
     /// False while another texture of the same heap owns bytes of this one; its contents are then undefined.
     bool current = true;
 
-    /// Everything that has used it, as one: what whoever takes its memory over must wait for.
+    /// All its uses so far, as one: what the next owner of its memory must wait for.
     AccessState history() const;
     /// Contents undefined; the next use waits for `stages`.
     void discard(VkPipelineStageFlags2 stages);

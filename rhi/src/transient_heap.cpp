@@ -40,7 +40,7 @@ AccessState HeapOwners::take(std::uint64_t begin, std::uint64_t end, const std::
     for (const auto& owner : displaced_) {
         const AccessState used = owner->history();
         add(before, used);
-        // The bytes it keeps have no owner now, but whoever comes next must wait for it all the same.
+        // The rest of its bytes has no owner now, but their next owner must wait for its uses all the same.
         for (Span& span : spans_)
             if (span.owner == owner) {
                 add(span.residue, used);

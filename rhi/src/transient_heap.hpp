@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Memory that textures share, and who owns which bytes of it at the moment.
+// Memory that textures share, and which texture owns which bytes of it at the moment.
 #pragma once
 
 #include "objects.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// A small renderer in raw Vulkan that somebody else might have written: its own instance, device, images and frames in
+// A small renderer in raw Vulkan, as an engine might have it: its own instance, device, images and frames in
 // flight, a spinning opaque scene, and a second thread that submits to the same queue. It knows nothing of Pelage; hair
 // comes in through the four functions of Guest.
 #pragma once

@@ -118,7 +118,7 @@ Result<Places> readHeader(const std::vector<std::string_view>& header, const std
         if (header.size() == 1 && header.front().find_first_of(";\t") != std::string_view::npos) {
             hint = "separate cells by commas";
         }
-        std::vector<std::string> others;  // a misspelt name is none of the other columns
+        std::vector<std::string> others;  // a misspelt name is not one of the other columns
         for (const std::string_view word : header) {
             if (std::find(names.begin(), names.end(), word) == names.end()) others.emplace_back(word);
         }

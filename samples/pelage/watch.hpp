@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // Notices files whose contents changed. Contents are compared, not times: two edits within one tick of the file
-// system's clock are two edits, and a file that was only touched is none.
+// system's clock are two edits, and a file that was only touched has not changed.
 #pragma once
 
 #include <cstdint>

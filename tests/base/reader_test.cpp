@@ -52,7 +52,7 @@ TEST(Reader, EveryFaultHasPlaceCodeAndHint) {
         {"[1] 2", "T:1:5: error J001: expected the end of the text, found '2'"},
         {"[1] ]", "T:1:5: error J001: expected the end of the text, found ']'"},
         {"[1, /* x", "T:1:5: error J001: this comment is never closed; hint: add */"},
-        // J002: what is no text
+        // J002: what is not text
         {"[\"\xff\"]", "T:1:3: error J002: the text is not UTF-8 here; hint: save the file as UTF-8"},
         {"[\"\xed\xa0\x80\"]", "T:1:3: error J002: the text is not UTF-8 here; hint: save the file as UTF-8"},
         {"// \xc0\xaf\n1", "T:1:4: error J002: the text is not UTF-8 here; hint: save the file as UTF-8"},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: MIT
 // libFuzzer entry point of PassTree: any text gives a tree or lines, any tree a plan or lines. What compiles is drawn
-// as a graph, too. templates/*.pass.json is a good corpus to start from.
+// as a graph, too. hair/data/frames/*.pass.json is a good corpus to start from.
 #include <pelage/passes/tree.hpp>
 
 #include <cstdlib>

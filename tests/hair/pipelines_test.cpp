@@ -100,7 +100,7 @@ TEST(SamePipeline, AnotherModuleIsAnotherPipeline) {
     EXPECT_FALSE(hair::samePipeline(compute, {.compute = {.module = rows, .constants = {{"model", 1}}}}));
 }
 
-// Opens for whoever waits before a pipeline is made; remembers who came.
+// A gate at which threads wait before a pipeline is made; it remembers which labels came.
 class Gate {
 public:
     void pass(const std::string& label) {

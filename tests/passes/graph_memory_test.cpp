@@ -133,7 +133,7 @@ TEST_F(GraphMemoryTest, HistoryIsTheLastFrameAndBeginsWithTheClearValue) {
 }
 
 TEST_F(GraphMemoryTest, DepthHistoryBeginsFar) {
-    // Last frame's depth as a picture; nobody clears this frame's to anything else.
+    // Last frame's depth as a picture; no pass clears this frame's to anything else.
     const std::string text = R"json({
   "format": "pelage.passtree/1", "name": "Last", "views": { "main": { "count": 1 } }, "drawLists": ["all"],
   "attachments": { "Depth": { "format": "Depth32Float", "size": { "frame": 1 }, "history": 1 },

@@ -202,7 +202,7 @@ TEST(Plan, SizesAndAlignmentsComeFromTheHost) {
 }
 
 TEST(Plan, WhoIsReadByTheNextFrameIsNotCulled) {
-    // Nobody in this frame wants Accum: only the next one does, through its history.
+    // No pass of this frame reads Accum: only the next frame does, through its history.
     std::string text =
         edited(moreGrammar(), R"("last":  { "access": "read", "as": "sampled", "bind": "u_last" },)", "");
     text = edited(text, R"("last": "history.Accum", )", "");

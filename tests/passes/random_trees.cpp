@@ -177,7 +177,7 @@ private:
         std::uint64_t number = 0;
         for (std::uint64_t& cell : cells(resource)) cell = mix(with, ++number);
     }
-    // All of an image, or nothing that anybody made.
+    // All of an image, or nothing that a pass made.
     bool holds(std::size_t resource, std::uint64_t value) {
         std::uint64_t number = 0;
         for (const std::uint64_t cell : cells(resource)) {

@@ -13,7 +13,7 @@ constexpr auto everyBuffer = BufferUsage::Storage | BufferUsage::CopySrc | Buffe
 constexpr auto everyTexture = TextureUsage::RenderAttachment | TextureUsage::TextureBinding |
                               TextureUsage::StorageBinding | TextureUsage::CopySrc | TextureUsage::CopyDst;
 
-/// Runs a program on a fresh device. Reading what nobody wrote is the program's business, not the barriers'.
+/// Runs a program on a fresh device. Reading what was never written is the program's business, not the barriers'.
 struct Outcome {
     std::vector<std::string> hazards;
     std::uint64_t barriers = 0, submissions = 0;

@@ -110,7 +110,7 @@ TEST(Faults, EveryDriverCallMayFailAndNothingLeaks) {
             ASSERT_TRUE(driver.failed()) << where;
             EXPECT_TRUE(driver.alive().empty()) << where << " leaks " << driver.alive().front();
             EXPECT_TRUE(driver.misuse().empty()) << where << ": " << driver.misuse().front();
-            // Not knowing how far the queue is, is no error: whoever waits asks again.
+            // Not to know how far the queue is is not an error: a caller that waits asks again.
             if (!error && result != VK_ERROR_DEVICE_LOST && calls[n - 1] == "vkGetSemaphoreCounterValue") continue;
             ASSERT_TRUE(error) << where << " failed and nobody was told";
             const auto kind = result == VK_ERROR_DEVICE_LOST ? ErrorKind::DeviceLost : ErrorKind::OutOfMemory;

@@ -27,7 +27,7 @@ TEST_F(Queries, PassTimesSumToTheFrame) {
             const TimestampWrites writes{set, 2 + 2 * i, 3 + 2 * i};
             if (i % 2 == 0) {
                 auto pass = encoder.beginComputePass({.label = "heavy", .timestampWrites = writes});
-                // A buffer nobody used: no barrier of its own stands between the time stamp and the dispatch.
+                // A buffer without earlier uses: no barrier of its own stands between the time stamp and the dispatch.
                 const auto numbers = buffer("numbers", 64 * 512 * 4, BufferUsage::Storage);
                 pass.setPipeline(heavy);
                 pass.setBindGroup(0, group(heavy.bindGroupLayout(0), {{0, BufferBinding{numbers}}}));

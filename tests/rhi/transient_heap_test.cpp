@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Textures that share memory: who owns which bytes, and that whoever takes them over waits for everybody before.
+// Textures that share memory: which one owns which bytes, and that the next owner waits for all uses before.
 #include "transient_heap.hpp"
 #include "common.hpp"
 

@@ -173,7 +173,7 @@ TEST_F(Reload, TwoQuickEditsAndATouch) {
     expectTaken();
     fs::last_write_time(path("mine.material.json"), time + std::chrono::seconds(5));
     EXPECT_EQ(live_->poll().change, LiveStage::Change::None) << "only touched";
-    // A broken edit and its repair within one look are no event.
+    // A broken edit and its repair within one look are not an event.
     const std::string good = read(path("mine.material.json"));
     write("mine.material.json", "{");
     write("mine.material.json", good);

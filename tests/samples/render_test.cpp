@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Hair of somebody else, rendered with nothing but defaults.
+// Hair files from outside, rendered with nothing but defaults.
 #include "app_files.hpp"
 #include "app_fixture.hpp"
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Every invocation takes one material and walks through many directions, random and in the corners of their ranges.
-// What it finds goes into a few counters: how often a value was no number or negative, and the worst of what is bounded.
+// What it finds goes into a few counters: how often a value was not a number or was negative, and the worst of what is
+// bounded.
 #version 450
 #extension GL_GOOGLE_include_directive : require
 #include "visibility/hash.glsl"
@@ -9,7 +10,7 @@
 layout(constant_id = 0) const int scatteringModel = 8;
 layout(constant_id = 1) const bool asPublished = false;
 layout(constant_id = 2) const int points = 64;       // per invocation
-layout(constant_id = 3) const bool nonsense = false;  // vectors that are no directions come in
+layout(constant_id = 3) const bool nonsense = false;  // vectors that are not directions come in
 layout(constant_id = 4) const float nearField = 0.0;
 layout(local_size_x = 64) in;
 
@@ -130,7 +131,7 @@ void main() {
                     m.deviation.x >= 0.17768 && m.betaN >= 0.2 && m.eta >= 1.2 && m.eta <= 2.0 &&
                     m.sigmaA.x <= 4.0 && abs(m.alpha) <= 0.1;
     if (nonsense) {
-        // A material that is no material: vectors alone are mended by fiberAngles() before a model sees them.
+        // Numbers that no material has: vectors alone are mended by fiberAngles() before a model sees them.
         float kind = next(), zero = next() * 0.0;
         if (kind < 0.2) m.inverseVariance *= zero / zero;
         else if (kind < 0.4) m.sigmaA = vec3(zero / zero);
@@ -175,7 +176,7 @@ void main() {
         check(before, before);
         float step = difference(after, before, m) / (1e-4 * slope);
         if (atomicMax(found.worstStep, ordered(step)) < ordered(step)) found.worstSeed = id;
-        // Everything turned together, by half a turn about an axis that is no axis of anything. The azimuth of a
+        // Everything turned together, by half a turn about an axis that has no meaning to the fibre. The azimuth of a
         // direction near the fibre's own has few digits, whatever the model makes of it.
         vec3 axis = normalize(vec3(0.3, -0.7, 0.648));
         vec3 tu = 2.0 * axis * dot(axis, u) - u, ti = 2.0 * axis * dot(axis, wi) - wi;

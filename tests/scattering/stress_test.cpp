@@ -21,9 +21,9 @@ struct Bounds {
 };
 
 // The lobes of exact models are as steep as their widths say. The others are not all: Kajiya's and Scheuermann's
-// highlights are no unit lobes; Karis' R narrows without end towards phi = 180 degrees, and takes rounding with it;
-// marschner is a smooth cylinder, whose caustics and edges are as sharp as its cuts leave them, all the more at eta
-// 1.0001; thesis and gerard have the pole of 1 / cos^2(theta_d), which stress.comp passes by.
+// highlights are not lobes of unit integral; Karis' R narrows without end towards phi = 180 degrees, and takes rounding
+// with it; marschner is a smooth cylinder, whose caustics and edges are as sharp as its cuts leave them, all the more
+// at eta 1.0001; thesis and gerard have the pole of 1 / cos^2(theta_d), which stress.comp passes by.
 constexpr Bounds bounds[] = {{ScatteringModel::KajiyaKay, 0.35F, 30, 1e-6F, 1e-5F},
                              {ScatteringModel::Scheuermann, 0.8F, 45, 1e-6F, 1e-5F},
                              {ScatteringModel::Marschner, 2e3F, 1e6F, 0.2F, 1e-5F},

@@ -28,7 +28,7 @@ struct Touch {
     VkPipelineStageFlags2 stages = 0;
     VkAccessFlags2 access = 0;
     bool write = false;
-    bool needsContents = false;  // somebody must have written it before
+    bool needsContents = false;  // it must have been written before
     std::uint64_t scope = 0;  // accesses of one scope (the draws of a pass) are not ordered among themselves; 0: none
     VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;  // in which the image must be; UNDEFINED: not asked
 };
@@ -71,7 +71,7 @@ private:
         Write write;
         std::vector<Read> reads;
         VkImageLayout layout = VK_IMAGE_LAYOUT_UNDEFINED;
-        bool written = false;  // contents are somebody's
+        bool written = false;  // its contents were written
     };
     struct Span {
         std::uint64_t end = 0;

@@ -28,7 +28,7 @@ FiberLobes scatterFiberBare(int model, bool published, FiberAngles a, FiberMater
     return noLobes();
 }
 
-// The same, and zero where what came in was no number.
+// The same, and zero where what came in was not a number.
 FiberLobes scatterFiber(int model, bool published, FiberAngles a, FiberMaterial m, FiberTable table) {
     FiberLobes s = scatterFiberBare(model, published, a, m, table);
     s.R = finiteOrZero(s.R);

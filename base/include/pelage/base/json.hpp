@@ -32,7 +32,7 @@ struct Value {
     std::vector<Value> elements = {};  // Array
     std::vector<Member> members;       // Object, in the order of the text; no "= {}", for Member is incomplete here
 
-    /// The member called `key`, or null (also when this is no object).
+    /// The member called `key`, or null (also when this is not an object).
     const Value* find(std::string_view key) const;
     const Member* member(std::string_view key) const;
     bool isObject() const { return kind == Kind::Object; }

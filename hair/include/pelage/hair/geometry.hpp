@@ -85,7 +85,7 @@ const std::string& nameOf(const Geometry& geometry);
 /// Object-space bounds; false when there is nothing to bound.
 bool boundsOf(const Geometry& geometry, glm::vec3& low, glm::vec3& high);
 
-/// The mean of the roots, which lies inside the head: what normals lead away from when nobody says where the head is.
+/// The mean of the roots, which lies inside the head: what normals lead away from when the head's place is not known.
 /// A stray strand moves it by its share only, and it turns with the object, unlike the middle of a box around the
 /// roots.
 glm::vec3 middleOfRoots(const Strands& strands);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: MIT
-// Readers of hair that somebody else made. Each takes outside bytes, trusts nothing, never throws and never crashes:
+// Readers of hair files. Each checks every byte that it uses, never throws and never crashes, whatever the file holds:
 // a fault is one Diagnostic that names the file, what was found, what was expected and what to do.
 #pragma once
 

@@ -53,7 +53,7 @@ private:
 /// The name by which a material asks for a table, "moments:<eta>,<betaN>", and the one for no table.
 std::string momentTableName(double eta, double betaN);
 inline constexpr std::string_view momentTableNone = "moments:none";
-/// The table of such a name; empty for momentTableNone and for what is no such name.
+/// The table of such a name; empty for momentTableNone and for any other text.
 std::optional<MomentTable> momentTableOf(std::string_view name);
 
 }  // namespace pelage::hair

@@ -62,7 +62,7 @@ struct FrameReport {
     std::uint64_t triangles = 0, segments = 0;  // submitted, all passes
     std::uint32_t pipelinesPending = 0;         // of materials, still being made
     std::uint32_t pipelinesMade = 0;            // of materials, since the renderer was made
-    /// What is worth knowing of material types, said in the frame that uses one first (M017, S020, S031), and pipelines
+    /// What is worth knowing of material types, said in the frame that uses one first (M017, M050, M052), and pipelines
     /// that could not be made in the background.
     Diagnostics notes = {};
 };
@@ -132,7 +132,7 @@ public:
     /// Of the last frame, once its work is done.
     FrameReport report() const;
     const passes::Plan& plan() const;
-    /// Of an object of the last encoded scene, by its index; null when it is none of strands.
+    /// Of an object of the last encoded scene, by its index; null when it is not one of strands.
     const StrandBuffers* strandBuffers(std::size_t object) const;
     /// SPIR-V of an embedded shader and the constants a material gives it: for instruction counts.
     static std::span<const std::uint32_t> shaderCode(const std::string& file);

@@ -38,9 +38,9 @@ struct ModelInfo {
 
 /// All models, in the order of their numbers.
 std::span<const ModelInfo> scatteringModels();
-/// Null when there is none of that id.
+/// Null when no model has that id.
 const ModelInfo* findScatteringModel(std::string_view id);
-/// Null for a number that is none of the enumerators'.
+/// Null for a number that is not an enumerator's.
 const ModelInfo* findScatteringModel(ScatteringModel model);
 
 /// A fibre as a user describes it. Everything is clamped to the ranges given; NaN becomes the lower end.

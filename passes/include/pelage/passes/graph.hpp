@@ -42,9 +42,9 @@ public:
 
     /// Compiles the tree for the host and makes what it needs. On an error the last good plan stays in force. When
     /// nothing has changed since the last build that worked (the same tree, settings, imports, extent and depth
-    /// convention), the plan stays and the call costs less than 5 us: a host may call it each frame. The callbacks in
-    /// `host` are taken to answer as they did. What an attachment with a history remembers survives a new plan in which
-    /// it has the same shape.
+    /// convention), the plan stays and the call costs less than 5 us: a host may call it each frame. That a callback in
+    /// `host` would answer differently now is not noticed: call invalidate() then. What an attachment with a history
+    /// remembers survives a new plan in which the attachment has the same shape.
     Result<void> build(const PassTree& tree, const HostDescription& host);
     /// The next build() plans anew although nothing it can see has changed: shaders were compiled again, say.
     void invalidate() { stale_ = true; }
@@ -53,8 +53,8 @@ public:
     /// How many plans were made by builds that worked.
     std::uint64_t plansMade() const { return plansMade_; }
 
-    /// Records every pass of the plan. An import that is not as the plan expects (absent H001; format, size, layers or
-    /// samples H002) is an error before anything is recorded: build again with what is lent now.
+    /// Records every pass of the plan. An import that is not as the plan expects (absent P080; format, size, layers or
+    /// samples P081) is an error before anything is recorded: build again with what is lent now.
     Result<void> record(rhi::CommandEncoder& encoder, const FrameImports& imports = {});
     /// The texture behind an export; valid after record(), with its contents until the next one. An export of a buffer
     /// is in exportedBuffer().

@@ -31,10 +31,11 @@
 //                  }});
 //
 // The graph does the rest: order, attachments, load and store, clears, barriers, labels, queries, memory. What a class
-// touches must be a slot; a resource that it brings itself (a pipeline, a vertex buffer) is its own to keep.
+// touches must be a slot; a resource that it brings itself (a pipeline, a vertex buffer) it must keep alive itself.
 // Faults of a file are found when it is compiled: an unknown class (P053, with the nearest name), a parameter that the
 // class does not have or that it needs (P054), a value outside its range (P055), a slot that such a pass cannot have
-// (P023). A constant that none of the class's shaders has is S020, with the nearest name. What create() refuses is S004 at the class's place, and the last good plan stays.
+// (P023). A constant that none of the class's shaders has is P077, with the nearest name. A fault of create() keeps its
+// code, at the class's place; no recorder is P072. The last good plan stays.
 #pragma once
 
 #include <pelage/passes/tree.hpp>
@@ -83,9 +84,10 @@ struct PassSetup {
     PassParameters parameters;
     const ShaderSource& shaders;  // the graph's
 
-    /// The stage of a pipeline of this pass: the module with those of its specialization constants that the file gives a
-    /// value ("constants": {"samples": 4}), else what the images say of themselves (`u_source_samples`, `u_source_present` for the bind `u_source`).
-    /// A constant of the file that is in no stage asked for here is an error of the build (S020).
+    /// The stage of a pipeline of this pass: the module with those of its specialization constants that the file gives
+    /// a value ("constants": {"samples": 4}), else what the images say of themselves (u_depth_samples and
+    /// u_depth_present for the bind u_depth). A constant of the file that is in no stage asked for here is an error of
+    /// the build (P077).
     rhi::ProgrammableStage stage(const rhi::ShaderModule& module) const;
     /// All constants of the file, for a class that makes its pipelines later: none of them is an error then.
     const std::map<std::string, double>& constants() const;

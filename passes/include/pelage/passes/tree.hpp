@@ -76,8 +76,8 @@ struct PassClassInfo {
     std::vector<ParameterInfo> parameters = {};
 };
 
-/// The class that records raster passes: `"kind": "raster", "drawList": "forward"` in a file. Whoever draws registers
-/// it as any other class; PlanPass::drawList and PlanPass::view tell one pass from another.
+/// The class that records raster passes: `"kind": "raster", "drawList": "forward"` in a file. The host registers it
+/// as any other class; PlanPass::drawList and PlanPass::view tell one pass from another.
 inline constexpr std::string_view drawListClass = "DrawList";
 
 struct PlanResource;
@@ -93,7 +93,7 @@ struct HostDescription {
     std::map<std::string, SettingValue> settings = {};  // those that differ from the defaults
     std::map<std::string, LentImport> imports = {};     // by name
     /// Exports that this host never looks at: as if the file did not have them, so that what only they need is culled
-    /// (without a warning) and their images give their memory back early. A name the tree lacks is a warning (H005).
+    /// (without a warning) and their images give their memory back early. A name the tree lacks is a warning (P084).
     std::vector<std::string> unwantedExports = {};
     /// Whether the device can make such an image; decides between "format" and "formatFallbacks". Empty: it can.
     /// Graph::build fills it in.

@@ -125,7 +125,8 @@ public:
     CommandEncoder createCommandEncoder(std::string label = "encoder") const;
 
     Queue queue() const;
-    /// Destroys what nobody holds and no running submission uses. Called by submit(); a host may call it when idle.
+    /// Destroys objects that have no handle left and that no running submission uses. Called by submit(); a host may
+    /// call it when idle.
     void collect() const;
     Result<void> waitIdle() const;
 

@@ -64,7 +64,7 @@ public:
     std::uint64_t size() const;
     BufferUsage usage() const;
     /// The bytes of a buffer with MapRead or MapWrite; persistently mapped and coherent. Read only after the submission
-    /// that wrote it is done (Device::wait). Empty for other buffers.
+    /// that wrote it is done (Queue::wait). Empty for other buffers.
     std::span<std::byte> mapped() const;
     /// Calls `ready` with mapped() once everything submitted so far that uses the buffer is done: from submit(), wait()
     /// or Device::collect(), on the thread that calls it, maybe at once. With an empty span when the device was lost;

@@ -91,7 +91,7 @@ struct AdoptDescriptor {
     Feature features = Feature::None;          // wanted; as given to needs()
     Feature optionalFeatures = Feature::None;  // granted where the device has them and the host enabled them
     QueueLock queueLock = {};
-    bool singleThreaded = false;  // true: nobody else touches the queue while we do, so no lock is needed
+    bool singleThreaded = false;  // true: no other thread uses the queue meanwhile, so no lock is needed
     const VkAllocationCallbacks* allocator = nullptr;  // host memory of the driver; outlives the device
     VkPipelineCache pipelineCache = VK_NULL_HANDLE;    // used instead of one of our own; stays the host's
     BlobCache pipelines = {};                          // when there is none of the host's
