@@ -50,10 +50,10 @@ pelage_install_library(hair HEADERS hair)
 
 find_package(tl-expected REQUIRED)
 get_target_property(expected_include tl::expected INTERFACE_INCLUDE_DIRECTORIES)
-pelage_install_pkgconfig(base DESCRIPTION "JSON with positions, schemas and one-line diagnostics" LIBS base
+pelage_install_pkgconfig(base DESCRIPTION "The one error, its codes, and JSON with positions and schemas" LIBS base
   INCLUDES ${expected_include})
-pelage_install_pkgconfig(rhi DESCRIPTION "Devices in WebGPU's shape over Vulkan 1.3" LIBS rhi
-  INCLUDES ${Vulkan_INCLUDE_DIR} ${expected_include} 
+pelage_install_pkgconfig(rhi DESCRIPTION "Devices in WebGPU's shape over Vulkan 1.3" LIBS rhi REQUIRES pelage-base
+  INCLUDES ${Vulkan_INCLUDE_DIR}
   LIBS_PRIVATE -lspirv-cross-core -ldl -pthread -Wl,--exclude-libs,libspirv-cross-core.a)
 pelage_install_pkgconfig(passes DESCRIPTION "Pass trees: a frame as data" LIBS passes REQUIRES pelage-rhi pelage-base)
 pelage_install_pkgconfig(materials DESCRIPTION "Material types, materials, functors" LIBS materials
