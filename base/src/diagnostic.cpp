@@ -57,6 +57,9 @@ std::string toString(const Diagnostic& diagnostic) {
     }
     out += ": ";
     appendOnOneLine(out, diagnostic.text);
+    // A sentence goes on with what follows.
+    const bool goesOn = !diagnostic.context.empty() || !diagnostic.hint.empty();
+    if (goesOn && out.ends_with('.')) out.pop_back();
     for (std::size_t i = diagnostic.context.size(); i-- > 0;) {
         out += i + 1 == diagnostic.context.size() ? "; while validating " : " > ";
         appendOnOneLine(out, diagnostic.context[i]);

@@ -34,8 +34,9 @@ void Reporter::add(Severity severity, Place place, Code code, std::string text, 
     errors_ += severity == Severity::Error ? 1 : 0;
 }
 
-void Reporter::forward(Place place, const Diagnostics& faults, const std::string& context) {
+void Reporter::forward(Place place, const Diagnostics& faults, const std::string& context, Code otherwise) {
     for (Diagnostic fault : faults.items()) {
+        if (fault.code.empty()) fault.code = otherwise;
         fault.context.push_back(context);
         if (fault.file.empty()) {
             fault.file = files_[std::min(fileOf(place), files_.size() - 1)];

@@ -38,8 +38,8 @@ public:
         add(Severity::Warning, place, code, std::move(text), std::move(hint));
     }
     /// Faults that were found elsewhere keep their codes and get this place where they have none; `context` says what
-    /// was being done.
-    void forward(Place place, const Diagnostics& faults, const std::string& context);
+    /// was being done. What a host's own code said without a code gets `otherwise`.
+    void forward(Place place, const Diagnostics& faults, const std::string& context, Code otherwise = "X001");
     bool failed() const { return out_.hasErrors(); }
     std::size_t errors() const { return errors_; }
     /// "12:5", with the file when that is not the tree's own.

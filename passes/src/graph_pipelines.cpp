@@ -69,7 +69,7 @@ private:
         if (made) {
             reporter_.error(place_, "P070", "there is no shader '" + file + "' for pass '" + pass.name + "'");
         } else {
-            reporter_.forward(place_, made.error(), about(pass) + ", shader '" + file + "'");
+            reporter_.forward(place_, made.error(), about(pass) + ", shader '" + file + "'", "P070");
         }
         return std::nullopt;
     }

@@ -45,7 +45,7 @@ TEST(Diagnostic, PlacesInItsSentencesAreRelated) {
 }
 
 TEST(Diagnostic, SaysWhatWasBeingDoneFromTheOutside) {
-    const Diagnostics inner(Diagnostic{.code = "R012", .text = "no", .context = {"draw #3", "RenderPass \"forward\""}});
+    const Diagnostics inner(Diagnostic{.code = "R012", .text = "no.", .context = {"draw #3", "RenderPass \"forward\""}});
     const Diagnostics outer = inner.within("frame \"main\"");
     EXPECT_EQ(toString(outer.first()), "error R012: no; while validating frame \"main\" > RenderPass \"forward\" > draw #3");
     EXPECT_NE(toJson(outer.first()).find(R"("context":["draw #3","RenderPass \"forward\"","frame \"main\""])"),

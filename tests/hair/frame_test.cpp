@@ -132,5 +132,17 @@ TEST_F(Frame, NoObjectsIsOneClearLine) {
     EXPECT_EQ(picture.error().first().code, Code("N002"));
 }
 
+TEST_F(Frame, MoreLightsThanThereMayBeIsOneClearLine) {
+    hair::Scene scene;
+    scene.objects.push_back({.name = "head",
+                             .geometry = std::make_shared<const hair::Mesh>(hair::makeHead()),
+                             .material = material("skin", {})});
+    scene.lights.resize(hair::maxLights + 1);
+    hair::Renderer renderer = rendererFor(shippedTree());
+    const auto picture = renderer.render(scene, {.width = 16, .height = 16});
+    ASSERT_FALSE(picture);
+    EXPECT_EQ(picture.error().first().code, Code("N003"));
+}
+
 }  // namespace
 }  // namespace pelage::test

@@ -71,7 +71,7 @@ protected:
         hair::Scene scene = sceneOf(type);
         hair::Renderer drawing = renderer();
         const auto picture = drawing.render(scene, {.width = 32, .height = 32});
-        return picture ? picture->report.notes.text() : picture.error().text();
+        return picture ? picture->report.notes.text() : toString(picture.error().first());
     }
     static glm::vec3 middle(const hair::Picture& picture) {
         const std::size_t at = 4 * (picture.height / 2 * std::size_t{picture.width} + picture.width / 2);

@@ -178,8 +178,8 @@ TEST_F(Errors, AUsageConflictNamesTheObjectAndBothUses) {
                  pass.end();
              }),
              {"R022: [Texture \"target\"] is used as a colour attachment and as a sampled texture (group 0 binding 0) "
-              "in one scope.",
-              "While validating CommandEncoder \"frame\" > RenderPass \"forward\" > draw #0."});
+              "in one scope; "
+              "while validating CommandEncoder \"frame\" > RenderPass \"forward\" > draw #0"});
     const auto b = buffer("numbers", 256, BufferUsage::Storage);
     const auto c = compute("copy.comp");
     const auto h = group(c.bindGroupLayout(0), {{0, BufferBinding{b}}, {1, BufferBinding{b}}});

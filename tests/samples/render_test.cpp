@@ -71,6 +71,16 @@ TEST_F(Render, GraphShowsWhatEachPassCost) {
     EXPECT_NE(page.find(" barriers; a device does not count them for each pass"), std::string::npos);
 }
 
+TEST_F(Render, APictureThatCannotBeWrittenIsOneLine) {
+    const std::string scene = write("p.scene.json", R"({ "format": "pelage.scene/1", "objects": [{ "name": "h",
+        "generate": { "kind": "groom", "strands": 10 }, "material": "brown" }] })");
+    const std::string blocked = write("file", "") + "/out.png";
+    const RunResult result = run({"render", scene, "-o", blocked, "--size", "16x16"});
+    EXPECT_EQ(result.exitCode, 2);
+    EXPECT_NE(result.err.find("error A020:"), std::string::npos) << result.err;
+    EXPECT_EQ(result.errorLines(), 1U) << result.err;
+}
+
 TEST_F(Render, SameFileTwiceIsTheSamePicture) {
     const std::string file = write("a.hair", hairFile(40, 6));
     renders(file);
