@@ -111,7 +111,7 @@ private:
     }
     std::optional<Term> fail(Code code, std::size_t where, std::string text, std::string hint = {}) {
         if (!fault_)
-            fault_ = Diagnostic{Severity::Error, code, {}, 1, static_cast<std::uint32_t>(where + 1),
+            fault_ = Diagnostic{Severity::Error, code,           {}, 1, static_cast<std::uint32_t>(where + 1),
                                 std::move(text), std::move(hint)};
         return {};
     }

@@ -91,9 +91,9 @@ std::string toJson(const Diagnostic& diagnostic) {
     std::string context;
     for (const std::string& each : diagnostic.context) context += (context.empty() ? "" : ",") + quoted(each);
     return "{" + place(diagnostic.file, diagnostic.line, diagnostic.column) + ",\"severity\":\"" +
-           std::string(severityWord(diagnostic.severity)) + "\",\"code\":" + quoted(std::string(diagnostic.code.text())) +
-           ",\"text\":" + quoted(diagnostic.text) + ",\"hint\":" + quoted(diagnostic.hint) + ",\"context\":[" + context + "],\"related\":[" +
-           related + "]}";
+           std::string(severityWord(diagnostic.severity)) +
+           "\",\"code\":" + quoted(std::string(diagnostic.code.text())) + ",\"text\":" + quoted(diagnostic.text) +
+           ",\"hint\":" + quoted(diagnostic.hint) + ",\"context\":[" + context + "],\"related\":[" + related + "]}";
 }
 
 std::string Diagnostics::jsonLines() const {

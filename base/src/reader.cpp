@@ -110,8 +110,7 @@ private:
 
     bool refuse(std::size_t at, Code code, std::string text, std::string hint) {
         const Place place = lines_.at(at);
-        refusal_ = Diagnostic{Severity::Error, code, {}, place.line, place.column,
-                              std::move(text), std::move(hint)};
+        refusal_ = Diagnostic{Severity::Error, code, {}, place.line, place.column, std::move(text), std::move(hint)};
         return false;
     }
 

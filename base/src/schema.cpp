@@ -59,8 +59,8 @@ private:
             failed_ = true;
             return;
         }
-        out_.add({Severity::Error, context.code.empty() ? code : context.code, document_.file, place.line,
-                  place.column, std::move(text), context.hint.empty() ? std::move(hint) : std::string(context.hint)});
+        out_.add({Severity::Error, context.code.empty() ? code : context.code, document_.file, place.line, place.column,
+                  std::move(text), context.hint.empty() ? std::move(hint) : std::string(context.hint)});
     }
 
     // Whether `value` fits, without saying why not.

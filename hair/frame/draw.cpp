@@ -5,8 +5,8 @@
 namespace pelage::hair {
 
 Result<rhi::BindGroup> Renderer::State::groupFor(std::map<const void*, rhi::BindGroup>& cache,
-                                                      const rhi::BindGroupLayout& layout, const rhi::Buffer& buffer,
-                                                      std::uint64_t size, const char* label) {
+                                                 const rhi::BindGroupLayout& layout, const rhi::Buffer& buffer,
+                                                 std::uint64_t size, const char* label) {
     rhi::BindGroup& group = cache[layout.get()];
     if (group) return group;
     auto made = device.createBindGroup(
@@ -17,7 +17,7 @@ Result<rhi::BindGroup> Renderer::State::groupFor(std::map<const void*, rhi::Bind
 }
 
 Result<rhi::BindGroup> Renderer::State::objectGroup(ObjectState& object, const rhi::BindGroupLayout& layout,
-                                                         const rhi::Buffer& pieces) {
+                                                    const rhi::Buffer& pieces) {
     const bool strands = object.geometry->strands.has_value();
     const StrandBuffers& b = object.moving.buffers();
     const ObjectState::Group wanted = strands ? ObjectState::Group{layout.get(), b.points, b.starts, pieces, {}}
@@ -46,7 +46,7 @@ Result<rhi::BindGroup> Renderer::State::objectGroup(ObjectState& object, const r
 }
 
 Result<rhi::BindGroup> Renderer::State::materialGroup(std::size_t index, const ObjectPipelines& set,
-                                                       std::uint32_t shader, const rhi::BindGroupLayout& layout) {
+                                                      std::uint32_t shader, const rhi::BindGroupLayout& layout) {
     const ObjectState& object = objects[index];
     const materials::ShaderUse& use = set.shaders[shader].use;
     // All were made when the pipeline was asked for.
@@ -70,8 +70,8 @@ bool isSorted(const ObjectState& object, std::uint32_t shader) {
 }  // namespace
 
 Result<ObjectGroups> Renderer::State::groupsOf(std::size_t index, std::uint32_t shader, std::size_t view,
-                                                    const passes::PassContext& context,
-                                                    const std::array<rhi::BindGroupLayout, 4>& layouts) {
+                                               const passes::PassContext& context,
+                                               const std::array<rhi::BindGroupLayout, 4>& layouts) {
     ObjectState& object = objects[index];
     ObjectGroups groups;
     if (layouts[0]) {

@@ -84,8 +84,8 @@ const Diagnostics* ObjectPipelines::failure() const {
 
 bool Renderer::State::isFor(const ObjectPipelines& set, const ObjectState& object,
                             const materials::CompiledMaterial& material) const {
-    return set.lights == lights && set.environmentOff == environmentOff &&
-           set.isEmpty == object.geometry->empty() && set.subdivisions == subdivisionsOf(*object.geometry) &&
+    return set.lights == lights && set.environmentOff == environmentOff && set.isEmpty == object.geometry->empty() &&
+           set.subdivisions == subdivisionsOf(*object.geometry) &&
            std::equal(set.shaders.begin(), set.shaders.end(), material.shaders.begin(), material.shaders.end(),
                       sameStates);
 }

@@ -35,7 +35,7 @@ public:
         State state() const { return state_.load(std::memory_order_acquire); }
         const rhi::RenderPipeline& render() const { return render_; }     // Ready, of a RenderPipelineDescriptor
         const rhi::ComputePipeline& compute() const { return compute_; }  // Ready, of a ComputePipelineDescriptor
-        const Diagnostics& error() const { return error_; }                // Failed
+        const Diagnostics& error() const { return error_; }               // Failed
 
     private:
         friend class Pipelines;

@@ -9,7 +9,7 @@
 namespace pelage::hair {
 
 Result<void> Renderer::State::buildGraph(const Scene& scene, const FrameSettings& settings, std::uint32_t& shadowSize,
-                                          std::uint32_t& shadowLights) {
+                                         std::uint32_t& shadowLights) {
     passes::HostDescription wanted;
     wanted.extent = {settings.width, settings.height, 1};
     wanted.depth = passes::DepthConvention::Reversed;
@@ -81,8 +81,7 @@ Result<void> Renderer::State::writeView(std::size_t index, const FrameBlock& blo
     return {};
 }
 
-Result<void> Renderer::State::prepareObjects(Scene& scene, const FrameViews& frameViews,
-                                              rhi::CommandEncoder& encoder) {
+Result<void> Renderer::State::prepareObjects(Scene& scene, const FrameViews& frameViews, rhi::CommandEncoder& encoder) {
     objects.resize(scene.objects.size());
     for (std::size_t i = 0; i < scene.objects.size(); ++i) {
         Object& object = scene.objects[i];

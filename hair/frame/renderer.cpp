@@ -32,9 +32,10 @@ Result<rhi::ShaderModule> Renderer::State::module(const std::string& file) {
         std::string known;
         for (const std::string_view name : detail::embeddedShaderNames())
             known += (known.empty() ? "" : ", ") + std::string(name);
-        return tl::unexpected<Diagnostics>(Diagnostic{.code = rhi::ErrorCode::ShaderInvalid,
-                                                      .text = "There is no shader \"" + file + "\"; this build has " + known + ".",
-                                                      .kind = ErrorKind::Validation});
+        return tl::unexpected<Diagnostics>(
+            Diagnostic{.code = rhi::ErrorCode::ShaderInvalid,
+                       .text = "There is no shader \"" + file + "\"; this build has " + known + ".",
+                       .kind = ErrorKind::Validation});
     }
     auto made = device.createShaderModule({.label = file, .code = {code.begin(), code.end()}});
     if (made) modules.emplace(file, *made);

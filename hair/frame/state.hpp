@@ -66,8 +66,8 @@ struct ObjectState {
     };
     std::vector<Group> groups = {};
     MovingPoints moving = {};
-    rhi::Buffer sorted = {};                    // indices of a mesh, or pieces of one segment each
-    std::uint32_t sortedCount = 0;              // pieces
+    rhi::Buffer sorted = {};                               // indices of a mesh, or pieces of one segment each
+    std::uint32_t sortedCount = 0;                         // pieces
     std::optional<ObjectPipelines> shown = {}, next = {};  // `next` waits for its pipelines
     const GpuGeometry* geometry = nullptr;
     const materials::CompiledMaterial* material = nullptr;
@@ -121,7 +121,7 @@ struct Renderer::State {
 
     Result<rhi::ShaderModule> module(const std::string& file);
     Result<void> buildGraph(const Scene& scene, const FrameSettings& settings, std::uint32_t& shadowSize,
-                             std::uint32_t& shadowLights);
+                            std::uint32_t& shadowLights);
     Result<void> prepareObjects(Scene& scene, const FrameViews& frameViews, rhi::CommandEncoder& encoder);
     Result<void> sortObject(const Object& from, ObjectState& state, const glm::vec3& forward);
     Result<void> writeView(std::size_t index, const FrameBlock& block);
@@ -135,22 +135,22 @@ struct Renderer::State {
                                                 const materials::CompiledMaterial::Shader& shader,
                                                 const passes::PlanPass& pass, std::uint32_t samples) const;
     Result<rhi::ComputePipelineDescriptor> describeCompute(const ObjectPipelines& set,
-                                                                const materials::CompiledMaterial::Shader& shader,
-                                                                const passes::PlanPass& pass);
+                                                           const materials::CompiledMaterial::Shader& shader,
+                                                           const passes::PlanPass& pass);
     Result<rhi::RenderPipelineDescriptor> describePipeline(const ObjectPipelines& set,
-                                                                const materials::CompiledMaterial::Shader& shader,
-                                                                const passes::PlanPass& pass);
+                                                           const materials::CompiledMaterial::Shader& shader,
+                                                           const passes::PlanPass& pass);
     // draw.cpp
     Result<rhi::BindGroup> materialGroup(std::size_t index, const ObjectPipelines& set, std::uint32_t shader,
-                                          const rhi::BindGroupLayout& layout);
-    Result<rhi::BindGroup> groupFor(std::map<const void*, rhi::BindGroup>& cache,
-                                         const rhi::BindGroupLayout& layout, const rhi::Buffer& buffer,
-                                         std::uint64_t size, const char* label);
-    Result<rhi::BindGroup> objectGroup(ObjectState& object, const rhi::BindGroupLayout& layout, const rhi::Buffer& pieces);
+                                         const rhi::BindGroupLayout& layout);
+    Result<rhi::BindGroup> groupFor(std::map<const void*, rhi::BindGroup>& cache, const rhi::BindGroupLayout& layout,
+                                    const rhi::Buffer& buffer, std::uint64_t size, const char* label);
+    Result<rhi::BindGroup> objectGroup(ObjectState& object, const rhi::BindGroupLayout& layout,
+                                       const rhi::Buffer& pieces);
     /// The groups of the sets that an object's shader uses in a pass; empty where its layout is.
     Result<ObjectGroups> groupsOf(std::size_t index, std::uint32_t shader, std::size_t view,
-                                       const passes::PassContext& context,
-                                       const std::array<rhi::BindGroupLayout, 4>& layouts);
+                                  const passes::PassContext& context,
+                                  const std::array<rhi::BindGroupLayout, 4>& layouts);
     /// What records the raster passes: the objects of `recorded` whose materials have a shader for the pass's list.
     passes::PassClass drawListClass();
     /// What records the passes of a host's class that dispatches: the same objects, by their compute shaders.

@@ -50,9 +50,9 @@ std::vector<rhi::ConstantEntry> declaredConstants(const rhi::ShaderModule& modul
 }
 
 Result<MaterialBindings::Entry> MaterialBindings::resolve(const rhi::BindGroupLayout& layout,
-                                                           const std::shared_ptr<const materials::MaterialType>& type,
-                                                           const materials::CompiledMaterial& material,
-                                                           const Modules& modules) const {
+                                                          const std::shared_ptr<const materials::MaterialType>& type,
+                                                          const materials::CompiledMaterial& material,
+                                                          const Modules& modules) const {
     Entry entry{.type = type};
     for (const rhi::BindGroupLayoutEntry& slot : layout.entries()) {
         if (slot.type == rhi::BindingType::Sampler) {
@@ -106,7 +106,7 @@ void MaterialBindings::fillBlock(const Entry& entry, const materials::CompiledMa
 }
 
 Result<void> MaterialBindings::findViews(Entry& entry, const materials::CompiledMaterial& material,
-                                          const GpuGeometry& geometry, Uploads& uploads) {
+                                         const GpuGeometry& geometry, Uploads& uploads) {
     views_.clear();
     for (TextureSlot& slot : entry.textures) {
         const auto& texture = material.textures[slot.texture];
@@ -130,10 +130,10 @@ Result<void> MaterialBindings::findViews(Entry& entry, const materials::Compiled
 }
 
 Result<rhi::BindGroup> MaterialBindings::bindGroup(const Key& key, const rhi::BindGroupLayout& layout,
-                                                    const std::shared_ptr<const materials::MaterialType>& type,
-                                                    const materials::CompiledMaterial& material,
-                                                    const GpuGeometry& geometry, Uploads& uploads,
-                                                    const std::function<Modules()>& modules) {
+                                                   const std::shared_ptr<const materials::MaterialType>& type,
+                                                   const materials::CompiledMaterial& material,
+                                                   const GpuGeometry& geometry, Uploads& uploads,
+                                                   const std::function<Modules()>& modules) {
     Entry& entry = entries_[key];
     if (entry.type != type) {
         auto resolved = resolve(layout, type, material, modules());

@@ -32,9 +32,9 @@ public:
     };
     /// `modules` is asked only when the key is new or has another material type than before.
     Result<rhi::BindGroup> bindGroup(const Key& key, const rhi::BindGroupLayout& layout,
-                                      const std::shared_ptr<const materials::MaterialType>& type,
-                                      const materials::CompiledMaterial& material, const GpuGeometry& geometry,
-                                      Uploads& uploads, const std::function<Modules()>& modules);
+                                     const std::shared_ptr<const materials::MaterialType>& type,
+                                     const materials::CompiledMaterial& material, const GpuGeometry& geometry,
+                                     Uploads& uploads, const std::function<Modules()>& modules);
 
 private:
     struct Member {
@@ -61,11 +61,11 @@ private:
         std::vector<rhi::TextureView> views = {};
     };
     Result<Entry> resolve(const rhi::BindGroupLayout& layout,
-                           const std::shared_ptr<const materials::MaterialType>& type,
-                           const materials::CompiledMaterial& material, const Modules& modules) const;
+                          const std::shared_ptr<const materials::MaterialType>& type,
+                          const materials::CompiledMaterial& material, const Modules& modules) const;
     void fillBlock(const Entry& entry, const materials::CompiledMaterial& material);
     Result<void> findViews(Entry& entry, const materials::CompiledMaterial& material, const GpuGeometry& geometry,
-                            Uploads& uploads);
+                           Uploads& uploads);
 
     rhi::Device device_;
     rhi::Sampler sampler_;

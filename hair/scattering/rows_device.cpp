@@ -47,7 +47,7 @@ constexpr std::size_t chunk = 16384;
 }  // namespace
 
 Result<std::vector<ScatteredLobes>> ScatterCompute::evaluate(ScatteringModel model, bool published,
-                                                              std::span<const ScatterRow> rows) {
+                                                             std::span<const ScatterRow> rows) {
     const auto code = detail::embeddedShader("rows.comp");
     auto module = device_.createShaderModule({.label = "scatter_rows", .code = {code.begin(), code.end()}});
     if (!module) return tl::unexpected(module.error());

@@ -48,8 +48,8 @@ Diagnostics unknownName(Code code, const char* what, const std::string& name, co
                         const std::vector<std::string>& known) {
     std::string hint;
     if (known.empty()) {
-        hint =
-            "the data directory has no " + directory.string() + "; set PELAGE_DATA to hair/data of the source tree of Pelage";
+        hint = "the data directory has no " + directory.string() +
+               "; set PELAGE_DATA to hair/data of the source tree of Pelage";
     } else if (const std::string_view nearest = nearestName(name, known); !nearest.empty()) {
         hint = "did you mean \"" + std::string(nearest) + "\"?";
     } else {
@@ -112,12 +112,11 @@ materials::Material::TypeSource Library::typesFor(const std::string& materialFil
 }
 
 materials::Material::ParentSource Library::parentSource() const {
-    return
-        [presets = fs::path(directory_) / "presets"](const std::string& name, const std::string& file) {
-            const fs::path near = fs::path(file).parent_path() / name;
-            if (isFile(near) || !isFile(presets / name)) return near.string();
-            return (presets / name).string();
-        };
+    return [presets = fs::path(directory_) / "presets"](const std::string& name, const std::string& file) {
+        const fs::path near = fs::path(file).parent_path() / name;
+        if (isFile(near) || !isFile(presets / name)) return near.string();
+        return (presets / name).string();
+    };
 }
 
 Result<std::shared_ptr<const passes::PassTree>> Library::passTree(const std::string& nameOrPath) {

@@ -361,8 +361,7 @@ Result<SceneFile> loadScene(const std::string& path, Library& library) {
     return scene;
 }
 
-Result<SceneFile> sceneFromAsset(const std::string& path, const std::string& material, float aspect,
-                                  Library& library) {
+Result<SceneFile> sceneFromAsset(const std::string& path, const std::string& material, float aspect, Library& library) {
     SceneFile file;
     auto geometry = parts::loadGeometry(path, 1, file.notes);
     if (!geometry) return tl::unexpected(geometry.error());

@@ -59,13 +59,13 @@ MaterialType::Linked Linker::run() {
 }
 
 void Linker::error(Code code, json::Place place, std::string text, std::string hint) {
-    diagnostics_.add({Severity::Error, code, description_.file, place.line, place.column, std::move(text),
-                      std::move(hint)});
+    diagnostics_.add(
+        {Severity::Error, code, description_.file, place.line, place.column, std::move(text), std::move(hint)});
 }
 
 void Linker::warn(Code code, json::Place place, std::string text, std::string hint) {
-    diagnostics_.add({Severity::Warning, code, description_.file, place.line, place.column, std::move(text),
-                      std::move(hint)});
+    diagnostics_.add(
+        {Severity::Warning, code, description_.file, place.line, place.column, std::move(text), std::move(hint)});
 }
 
 std::string Linker::targetName(const Target& target) const {

@@ -24,8 +24,7 @@ std::string normal(const std::string& path) {
 
 void MaterialReader::report(Severity severity, Code code, const json::Document& document, json::Place place,
                             std::string text, std::string hint) {
-    diagnostics.add(
-        {severity, code, document.file, place.line, place.column, std::move(text), std::move(hint)});
+    diagnostics.add({severity, code, document.file, place.line, place.column, std::move(text), std::move(hint)});
 }
 
 Result<Material::Parsed> MaterialReader::run(Result<json::Document> document) {
@@ -177,12 +176,11 @@ void MaterialReader::readValue(Material& material, const json::Document& documen
 }
 
 Result<Material::Parsed> Material::parse(std::string_view text, const std::string& file, const TypeSource& types,
-                                          const ParentSource& parents) {
+                                         const ParentSource& parents) {
     return MaterialReader{types, parents}.run(json::parse(text, file));
 }
 
-Result<Material::Parsed> Material::load(const std::string& path, const TypeSource& types,
-                                         const ParentSource& parents) {
+Result<Material::Parsed> Material::load(const std::string& path, const TypeSource& types, const ParentSource& parents) {
     return MaterialReader{types, parents}.run(json::parseFile(path));
 }
 

@@ -26,8 +26,8 @@ private:
     void readValues(Material& material, const json::Document& document, bool hasNoParent);
     void readValue(Material& material, const json::Document& document, const json::Member& member, int version,
                    std::vector<std::pair<std::size_t, json::Place>>& seen);
-    void report(Severity severity, Code code, const json::Document& document, json::Place place,
-                std::string text, std::string hint = {});
+    void report(Severity severity, Code code, const json::Document& document, json::Place place, std::string text,
+                std::string hint = {});
 };
 
 }  // namespace pelage::materials

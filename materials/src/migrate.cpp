@@ -78,7 +78,7 @@ std::string valuesText(const json::Document& document, const MaterialType::Linke
 }  // namespace
 
 Result<Migration> migrate(std::string_view text, const std::string& file, const Material::TypeSource& types,
-                           const Material::ParentSource& parents) {
+                          const Material::ParentSource& parents) {
     MaterialReader reader{types, parents};
     Result<Material::Parsed> parsed = reader.run(json::parse(text, file));
     if (!parsed) return tl::unexpected<Diagnostics>(std::move(parsed.error()));

@@ -29,8 +29,7 @@ std::string Reporter::at(Place place) const {
 
 void Reporter::add(Severity severity, Place place, Code code, std::string text, std::string hint) {
     const std::size_t file = std::min(fileOf(place), files_.size() - 1);
-    out_.add(
-        {severity, code, files_[file], lineOf(place), place.column, std::move(text), std::move(hint)});
+    out_.add({severity, code, files_[file], lineOf(place), place.column, std::move(text), std::move(hint)});
     errors_ += severity == Severity::Error ? 1 : 0;
 }
 

@@ -21,8 +21,7 @@ rhi::TextureDescriptor descriptorOf(const PlanResource& image) {
 }
 
 // A device may keep some format out of the heap's kind of memory; such an image has its own.
-Result<rhi::Texture> makeTexture(const rhi::Device& device, const PlanResource& image,
-                                      const rhi::TransientHeap& heap) {
+Result<rhi::Texture> makeTexture(const rhi::Device& device, const PlanResource& image, const rhi::TransientHeap& heap) {
     rhi::TextureDescriptor descriptor = descriptorOf(image);
     if (heap) {
         descriptor.heap = heap;
@@ -147,8 +146,7 @@ Result<void> Graph::build(const PassTree& tree, const HostDescription& host) {
         state->queryCount += state->passes[i].queries.count;
     }
     if (descriptor_.measure) {
-        if (const auto queries = makeQueries(*state); !queries)
-            return failure(tree, queries.error(), "the queries");
+        if (const auto queries = makeQueries(*state); !queries) return failure(tree, queries.error(), "the queries");
     }
     describePasses(*state);
     Diagnostics out;

@@ -53,9 +53,10 @@ private:
                                std::to_string(wanted.binding) + ") but no slot of the pass binds it",
                            hint);
     }
-    tl::unexpected<Diagnostics> kind(const BindGroupLayoutEntry& wanted, const PlanSlot& slot,
-                                    const std::string& text, const std::string& hint = {}) const {
-        return shaderFault("P075", "'" + wanted.name + "' in a shader of '" + pass_.name + "." + slot.name + "' is " + text, hint);
+    tl::unexpected<Diagnostics> kind(const BindGroupLayoutEntry& wanted, const PlanSlot& slot, const std::string& text,
+                                     const std::string& hint = {}) const {
+        return shaderFault(
+            "P075", "'" + wanted.name + "' in a shader of '" + pass_.name + "." + slot.name + "' is " + text, hint);
     }
 
     // An optional slot that nothing feeds still needs something to bind.
@@ -142,8 +143,7 @@ tl::unexpected<Diagnostics> shaderFault(Code code, std::string text, std::string
 }
 
 Result<rhi::BindGroup> bindGroupFor(GraphState& state, std::size_t pass, const rhi::BindGroupLayout& layout) {
-    if (!layout)
-        return shaderFault("P074", "pass '" + state.plan.passes[pass].name + "': empty bind group layout");
+    if (!layout) return shaderFault("P074", "pass '" + state.plan.passes[pass].name + "': empty bind group layout");
     PassState& own = state.passes[pass];
     const std::uint32_t turn = own.history == ~0U ? 0 : state.histories[own.history].turn;
     std::size_t alike = 0;

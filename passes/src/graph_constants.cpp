@@ -13,9 +13,8 @@ struct SamplerRow {
     rhi::AddressMode address;
 };
 
-Result<rhi::Texture> makeConstant(const rhi::Device& device, const std::string& name,
-                                       std::array<std::uint8_t, 4> texel, rhi::TextureFormat format,
-                                       std::uint32_t layers, rhi::TextureDimension dimension) {
+Result<rhi::Texture> makeConstant(const rhi::Device& device, const std::string& name, std::array<std::uint8_t, 4> texel,
+                                  rhi::TextureFormat format, std::uint32_t layers, rhi::TextureDimension dimension) {
     auto usage = rhi::TextureUsage::TextureBinding | rhi::TextureUsage::CopyDst;
     // The layout in which depth is sampled is one of attachments.
     if (rhi::isDepth(format)) usage = usage | rhi::TextureUsage::RenderAttachment;

@@ -30,9 +30,10 @@ public:
             const rhi::Extent3D size = texture.size();
             if (texture.format() != resource.format || texture.sampleCount() != resource.samples ||
                 size != resource.extent) {
-                return fault("P081", "the image '" + import.name + "' is " +
-                             shape(size, texture.format(), texture.sampleCount()) + ", the plan was made for " +
-                             shape(resource.extent, resource.format, resource.samples) + "; build the graph again");
+                return fault("P081",
+                             "the image '" + import.name + "' is " +
+                                 shape(size, texture.format(), texture.sampleCount()) + ", the plan was made for " +
+                                 shape(resource.extent, resource.format, resource.samples) + "; build the graph again");
             }
             state_.textures[import.resource] = texture;
         }
@@ -82,8 +83,7 @@ public:
 
 private:
     static tl::unexpected<Diagnostics> fault(Code code, std::string text) {
-        return tl::unexpected<Diagnostics>(
-            Diagnostic{.code = code, .text = std::move(text)});
+        return tl::unexpected<Diagnostics>(Diagnostic{.code = code, .text = std::move(text)});
     }
 
     static std::string shape(const rhi::Extent3D& size, rhi::TextureFormat format, std::uint32_t samples) {
@@ -118,8 +118,9 @@ rhi::Buffer PassContext::buffer(std::string_view slot) const {
 
 Result<void> Graph::record(rhi::CommandEncoder& encoder, const FrameImports& imports) {
     if (!state_) {
-        return tl::unexpected<Diagnostics>(
-            Diagnostic{.code = rhi::ErrorCode::MissingState, .text = "Graph::record() before a build() that worked", .kind = ErrorKind::Validation});
+        return tl::unexpected<Diagnostics>(Diagnostic{.code = rhi::ErrorCode::MissingState,
+                                                      .text = "Graph::record() before a build() that worked",
+                                                      .kind = ErrorKind::Validation});
     }
     Recorder recorder(*state_, encoder);
     if (auto lent = recorder.lend(imports); !lent) return lent;

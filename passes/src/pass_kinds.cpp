@@ -8,7 +8,7 @@ namespace {
 
 template <class Pipeline, class Encoder>
 Result<void> set(const Pipeline& pipeline, const rhi::BindGroupLayout& layout, const PassContext& context,
-                      Encoder& encoder) {
+                 Encoder& encoder) {
     encoder.setPipeline(pipeline);
     if (!layout) return {};
     auto group = context.bindGroup(layout);
@@ -35,8 +35,8 @@ Result<void> copyBuffer(const PassContext& context, const PlanSlot& from, const 
     if (source.size() != target.size()) {
         return tl::unexpected(Diagnostic{.code = "P081",
                                          .text = "pass '" + context.pass.name + "' copies " +
-                                                    std::to_string(source.size()) + " bytes into a buffer of " +
-                                                    std::to_string(target.size())});
+                                                 std::to_string(source.size()) + " bytes into a buffer of " +
+                                                 std::to_string(target.size())});
     }
     context.copy->copyBufferToBuffer(source, 0, target, 0, source.size());
     return {};

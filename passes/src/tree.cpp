@@ -5,9 +5,8 @@
 namespace pelage::passes {
 namespace {
 
-Result<std::shared_ptr<const PassTree::Description>> describe(Result<json::Document> document,
-                                                               const TextReader& reader, const IncludePath& elsewhere,
-                                                               bool disk) {
+Result<std::shared_ptr<const PassTree::Description>> describe(Result<json::Document> document, const TextReader& reader,
+                                                              const IncludePath& elsewhere, bool disk) {
     if (!document) return tl::unexpected(std::move(document.error()));
     Diagnostics out;
     const Source source = readSource(std::move(*document), reader, elsewhere, disk, out);
@@ -27,7 +26,7 @@ Result<std::shared_ptr<const PassTree::Description>> describe(Result<json::Docum
 }  // namespace
 
 Result<std::shared_ptr<const PassTree>> PassTree::parse(std::string_view text, const std::string& file,
-                                                         const TextReader& reader) {
+                                                        const TextReader& reader) {
     auto description = describe(json::parse(text, file), reader, {}, false);
     if (!description) return tl::unexpected(std::move(description.error()));
     auto tree = std::make_shared<PassTree>();

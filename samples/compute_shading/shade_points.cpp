@@ -85,7 +85,7 @@ hair::Scene shadingScene(materials::Material material) {
 }
 
 Result<std::vector<glm::vec4>> shadeOnDevice(const rhi::Device& device, std::shared_ptr<const passes::PassTree> tree,
-                                              hair::Scene& scene, std::span<const glm::vec4> points) {
+                                             hair::Scene& scene, std::span<const glm::vec4> points) {
     const auto failed = [](Diagnostics faults) { return tl::unexpected<Diagnostics>(std::move(faults)); };
     auto renderer = hair::Renderer::create(
         {.device = device, .tree = std::move(tree), .shaders = embeddedShader, .materialPasses = {shadePoints()}});

@@ -23,8 +23,8 @@ pelage::hair::Scene shadingScene(pelage::materials::Material material);
 
 /// Radiance of each point toward the scene's camera, by the pass "Shade" of shading.pass.json.
 pelage::Result<std::vector<glm::vec4>> shadeOnDevice(const pelage::rhi::Device& device,
-                                                      std::shared_ptr<const pelage::passes::PassTree> tree,
-                                                      pelage::hair::Scene& scene, std::span<const glm::vec4> points);
+                                                     std::shared_ptr<const pelage::passes::PassTree> tree,
+                                                     pelage::hair::Scene& scene, std::span<const glm::vec4> points);
 /// The same in double on the CPU, by hair::scatterDouble.
 std::vector<glm::dvec3> shadeOnCpu(const pelage::hair::Scene& scene, std::span<const glm::vec4> points);
 

@@ -84,7 +84,7 @@ struct RoundingResult {
 };
 /// `device`: null leaves the GPU out.
 Result<std::vector<RoundingResult>> roundingOf(Workers& workers, const DeviceOptions* device,
-                                                const AccuracyEffort& effort);
+                                               const AccuracyEffort& effort);
 
 /// Relative change of S when something is stored in half floats.
 struct HalfLoss {

@@ -94,7 +94,7 @@ std::span<const RoundingBand> roundingBands() {
 }
 
 Result<std::vector<RoundingResult>> roundingOf(Workers& workers, const DeviceOptions* device,
-                                                const AccuracyEffort& effort) {
+                                               const AccuracyEffort& effort) {
     std::vector<RoundingResult> results;
     for (const auto model : {hair::ScatteringModel::Chiang, hair::ScatteringModel::MomentLut}) {
         const ModelForm form{hair::findScatteringModel(model), false};

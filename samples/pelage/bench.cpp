@@ -91,7 +91,7 @@ ModelResult summarise(const Contender& contender, const Samples& samples) {
 }
 
 Result<void> measure(std::vector<Samples>& all, hair::Renderer& renderer, const hair::FrameSettings& frame,
-                      std::uint32_t repeat) {
+                     std::uint32_t repeat) {
     // The first round compiles shaders and uploads; it is not counted.
     for (std::uint32_t round = 0; round <= repeat; ++round) {
         for (Samples& samples : all) {

@@ -103,7 +103,7 @@ nlohmann::json modelJson(const BenchResult& result, const ModelResult& model) {
 }  // namespace
 
 Result<void> countOptions(const std::string& model, materials::Material& material,
-                           std::vector<InstructionResult>& results) {
+                          std::vector<InstructionResult>& results) {
     const materials::CompiledMaterial& compiled = material.compile();
     for (const auto& shader : compiled.shaders) {
         if (shader.use.name != "forward") continue;

@@ -42,7 +42,7 @@ struct BenchResult {
 
 /// Counts the forward shader of a material as it is, and with each component that is on switched off.
 Result<void> countOptions(const std::string& model, materials::Material& material,
-                           std::vector<InstructionResult>& results);
+                          std::vector<InstructionResult>& results);
 
 std::string benchText(const BenchResult& result);
 /// Through a temporary name, like every file this program writes.

@@ -32,7 +32,7 @@ namespace {
 
 Diagnostic unreadable(const std::string& path, const std::string& why) {
     return failure("A010", path + ": the environment cannot be read: " + why +
-                   "; expected an equirectangular Radiance .hdr or OpenEXR .exr picture");
+                               "; expected an equirectangular Radiance .hdr or OpenEXR .exr picture");
 }
 
 /// One infinite or negative texel would spoil all nine coefficients.
@@ -92,8 +92,8 @@ Result<hair::Environment> chooseEnvironment(const std::string& text) {
     if (text == "studio") return hair::Environment::studio();
     if (text.ends_with(".hdr")) return fromHdr(text);
     if (text.ends_with(".exr")) return fromExr(text);
-    return tl::unexpected(
-        failure("A011", "--environment is \"" + text + "\", expected none, studio, or a path that ends in .hdr or .exr"));
+    return tl::unexpected(failure(
+        "A011", "--environment is \"" + text + "\", expected none, studio, or a path that ends in .hdr or .exr"));
 }
 
 }  // namespace pelage::app

@@ -20,7 +20,8 @@ std::string withoutSeverity(const Diagnostic& diagnostic) {
     if (diagnostic.line != 0) {
         place += ":" + std::to_string(diagnostic.line) + ":" + std::to_string(diagnostic.column);
     }
-    std::string line = std::string(diagnostic.code.text()) + ": " + (place.empty() ? "" : place + ": ") + diagnostic.text;
+    std::string line =
+        std::string(diagnostic.code.text()) + ": " + (place.empty() ? "" : place + ": ") + diagnostic.text;
     for (const std::string& each : diagnostic.context) line += "; in " + each;
     if (!diagnostic.hint.empty()) line += "; " + diagnostic.hint;
     return line;

@@ -66,8 +66,7 @@ Result<std::vector<std::string>> chosenScenes(const std::vector<std::string>& on
     const auto all = sceneNames();
     if (all.empty()) {
         return tl::unexpected(
-            failure("A040", dataDirectory() +
-                    "/scenes has no scenes; set PELAGE_DATA to a data directory of Pelage"));
+            failure("A040", dataDirectory() + "/scenes has no scenes; set PELAGE_DATA to a data directory of Pelage"));
     }
     if (only.empty()) return all;
     for (const std::string& name : only) {

@@ -7,8 +7,7 @@ passes::HostDescription generousHost(const passes::PassTree& tree, const rhi::Ex
     passes::HostDescription host{.extent = extent};
     host.trustClasses = true;
     for (const passes::WantedImport& import : tree.imports()) {
-        passes::LentImport lent{
-            .present = true, .format = rhi::TextureFormat::RGBA16Float, .extent = host.extent};
+        passes::LentImport lent{.present = true, .format = rhi::TextureFormat::RGBA16Float, .extent = host.extent};
         if (!import.formats.empty()) lent.format = import.formats.front();
         if (!import.samples.empty()) lent.samples = import.samples.front();
         host.imports[import.name] = lent;

@@ -56,7 +56,8 @@ Result<void> openDevice(Gpu& gpu, const DeviceOptions& options, const rhi::Surfa
             none.hint = "install a Vulkan 1.3 driver; mesa-vulkan-drivers has one that needs no GPU";
             return tl::unexpected(std::move(none));
         }
-        return tl::unexpected(failure("A030", "no device has \"" + options.name + "\" in its name; there are " + names));
+        return tl::unexpected(
+            failure("A030", "no device has \"" + options.name + "\" in its name; there are " + names));
     }
     gpu.adapter = *adapter;
     auto device = gpu.adapter.requestDevice({.label = "pelage", .pipelines = pipelineCache()});
@@ -72,8 +73,7 @@ Result<Gpu> openGpu(const DeviceOptions& options) {
     return gpu;
 }
 
-Result<hair::Renderer> makeRenderer(const Gpu& gpu, const std::shared_ptr<const passes::PassTree>& tree,
-                                     bool measure) {
+Result<hair::Renderer> makeRenderer(const Gpu& gpu, const std::shared_ptr<const passes::PassTree>& tree, bool measure) {
     auto renderer = hair::Renderer::create({.device = gpu.device, .tree = tree, .measure = measure});
     if (!renderer) return tl::unexpected(renderer.error());
     return std::move(*renderer);

@@ -29,7 +29,7 @@ Result<Gpu> openGpu(const DeviceOptions& options);
 
 /// A renderer for the pass tree.
 Result<hair::Renderer> makeRenderer(const Gpu& gpu, const std::shared_ptr<const passes::PassTree>& tree,
-                                     bool measure = true);
+                                    bool measure = true);
 
 /// exitOk, or a line and exitFailed when the validation layer found something.
 int finish(const Gpu& gpu);

@@ -82,7 +82,7 @@ std::uint32_t countInFunctions(std::span<const std::uint32_t> code) {
 }  // namespace
 
 Result<std::uint32_t> countInstructions(std::span<const std::uint32_t> code,
-                                         const std::vector<rhi::ConstantEntry>& constants) {
+                                        const std::vector<rhi::ConstantEntry>& constants) {
     const SpecConstants known = findSpecConstants(code);
     std::unordered_map<std::uint32_t, std::vector<std::uint32_t>> bits;
     for (const rhi::ConstantEntry& constant : constants) {

@@ -15,6 +15,6 @@ namespace pelage::app {
 /// Freezes the named specialization constants (the others at their defaults), lets SPIRV-Tools fold and remove what is
 /// dead, and counts the instructions inside functions. Constants that the shader does not have are ignored.
 Result<std::uint32_t> countInstructions(std::span<const std::uint32_t> code,
-                                         const std::vector<rhi::ConstantEntry>& constants);
+                                        const std::vector<rhi::ConstantEntry>& constants);
 
 }  // namespace pelage::app

@@ -113,7 +113,7 @@ Result<void> checkDrawingPath(const std::string& path) {
     std::error_code ignored;
     if (!directory.empty() && !std::filesystem::is_directory(directory, ignored)) {
         return tl::unexpected(failure("A094", path + ": the file cannot be written: there is no directory " +
-                                      directory.string() + "; make it first"));
+                                                  directory.string() + "; make it first"));
     }
     return {};
 }

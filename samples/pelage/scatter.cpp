@@ -52,7 +52,7 @@ Result<ScatterMethod> methodOf(const ScatterOptions& options) {
 }
 
 Result<std::vector<std::optional<RowLobes>>> onDevice(const ScatterOptions& options, const ScatterMethod& method,
-                                                       std::span<const ScatterRow> rows) {
+                                                      std::span<const ScatterRow> rows) {
     std::vector<ScatterQuery> queries;
     for (const ScatterRow& row : rows) {
         if (row.usable) queries.push_back(scatterQuery(row.tuple));

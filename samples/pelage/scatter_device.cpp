@@ -8,7 +8,7 @@
 namespace pelage::app {
 
 Result<std::vector<hair::ScatteredLobes>> scatterOnDevice(const DeviceOptions& options, hair::ScatteringModel model,
-                                                           bool published, std::span<const ScatterQuery> queries) {
+                                                          bool published, std::span<const ScatterQuery> queries) {
     auto gpu = openGpu(options);
     if (!gpu) return tl::unexpected(gpu.error());
     std::vector<hair::ScatterRow> rows;

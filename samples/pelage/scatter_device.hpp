@@ -19,6 +19,6 @@ struct ScatterQuery {
 
 /// One result for each query, in their order. Fails when there is no device, or its driver refuses the shader.
 Result<std::vector<hair::ScatteredLobes>> scatterOnDevice(const DeviceOptions& options, hair::ScatteringModel model,
-                                                           bool published, std::span<const ScatterQuery> queries);
+                                                          bool published, std::span<const ScatterQuery> queries);
 
 }  // namespace pelage::app

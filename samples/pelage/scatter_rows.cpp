@@ -102,8 +102,7 @@ Diagnostic fault(Code code, const std::string& name, std::size_t line, std::stri
             .hint = std::move(hint)};
 }
 
-Result<Places> readHeader(const std::vector<std::string_view>& header, const std::string& name,
-                                   std::size_t line) {
+Result<Places> readHeader(const std::vector<std::string_view>& header, const std::string& name, std::size_t line) {
     Places places;
     for (std::size_t column = 0; column < names.size(); ++column) {
         const auto first = std::find(header.begin(), header.end(), names[column]);

@@ -25,16 +25,15 @@ struct Kind {
 };
 
 const std::vector<Kind>& kinds() {
-    static const std::vector<Kind> all = {
-        {"passtree",
-         "Pass trees: `*.pass.json`",
-         {{"passes/data/passtree.schema.json", passes::passTreeSchema}},
-         "frames/hair_frame.pass.json"},
-        {"material",
-         "Material types and materials: `*.materialtype.json`, `*.material.json`",
-         {{"materials/data/materialtype.schema.json", materials::materialTypeSchema},
-          {"materials/data/material.schema.json", materials::materialSchema}},
-         "types/kajiya_kay.materialtype.json"}};
+    static const std::vector<Kind> all = {{"passtree",
+                                           "Pass trees: `*.pass.json`",
+                                           {{"passes/data/passtree.schema.json", passes::passTreeSchema}},
+                                           "frames/hair_frame.pass.json"},
+                                          {"material",
+                                           "Material types and materials: `*.materialtype.json`, `*.material.json`",
+                                           {{"materials/data/materialtype.schema.json", materials::materialTypeSchema},
+                                            {"materials/data/material.schema.json", materials::materialSchema}},
+                                           "types/kajiya_kay.materialtype.json"}};
     return all;
 }
 
@@ -96,7 +95,8 @@ int schema(const SchemaOptions& options) {
         if (auto written = writeTextFile(options.output, *text); !written) return report(written.error());
         return exitOk;
     }
-    return report(failure("A121", "there is no schema \"" + options.name + "\"; known are passtree, material and diagnostics"));
+    return report(
+        failure("A121", "there is no schema \"" + options.name + "\"; known are passtree, material and diagnostics"));
 }
 
 }  // namespace pelage::app

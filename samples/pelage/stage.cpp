@@ -20,7 +20,7 @@ bool isSceneFile(const std::string& path) {
 }
 
 Result<hair::SceneFile> loadInput(const StageOptions& options, const Size& size, hair::Library& library,
-                                   std::string& path) {
+                                  std::string& path) {
     std::error_code ignored;
     path = options.input;
     if (!fs::exists(path, ignored)) {
@@ -58,7 +58,7 @@ Result<void> applyOverrides(hair::Scene& scene, const std::vector<std::string>& 
 }
 
 Result<void> applySettings(const std::vector<std::string>& settings, const passes::PassTree& tree,
-                            hair::FrameSettings& frame) {
+                           hair::FrameSettings& frame) {
     for (const std::string& text : settings) {
         auto assignment = parseAssignment(text, "--setting");
         if (!assignment) return tl::unexpected(assignment.error());

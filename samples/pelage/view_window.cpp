@@ -62,7 +62,7 @@ void listen(GLFWwindow* window) {
 Result<Window> Window::open(const std::string& title, std::uint32_t width, std::uint32_t height) {
     if (glfwInit() != GLFW_TRUE) {
         return tl::unexpected(failure("A080", "no window can be opened: " + glfwReason() +
-                                      "; without a display use pelage render or pelage gallery"));
+                                                  "; without a display use pelage render or pelage gallery"));
     }
     Window made;
     made.state_ = std::make_shared<State>();

@@ -100,7 +100,8 @@ TEST(Condition, FaultsHaveCodeAndColumn) {
     for (const Row& row : rows) {
         const auto condition = Condition::parse(row.text, names);
         ASSERT_FALSE(condition) << row.text;
-        EXPECT_EQ(condition.error().first().code.text(), row.code) << row.text << ": " << condition.error().first().text;
+        EXPECT_EQ(condition.error().first().code.text(), row.code)
+            << row.text << ": " << condition.error().first().text;
         EXPECT_EQ(condition.error().first().column, row.column) << row.text << ": " << condition.error().first().text;
         EXPECT_EQ(condition.error().first().hint, row.hint) << row.text;
     }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: MIT
 #include <gtest/gtest.h>
 
+#include <pelage/base/diagnostic.hpp>
 #include <set>
 #include <string_view>
-#include <pelage/base/diagnostic.hpp>
 
 using namespace pelage;
 
@@ -21,10 +21,10 @@ TEST(Diagnostic, IsOneLineOfJsonWhateverTheTextHolds) {
               R"("context":[],"related":[{"file":"a.json","line":2,"column":5}]})");
     const std::string odd =
         toJson({Severity::Note, "V007", "a\\b", 0, 0, "line\nbreak \x01 \xff \xc3\xa9 \xed\xa0\x80", ""});
-    EXPECT_EQ(
-        odd,
-        "{\"file\":\"a\\\\b\",\"line\":0,\"column\":0,\"severity\":\"note\",\"code\":\"V007\","
-        "\"text\":\"line\\u000abreak \\u0001 \\ufffd \xc3\xa9 \\ufffd\\ufffd\\ufffd\",\"hint\":\"\",\"context\":[],\"related\":[]}");
+    EXPECT_EQ(odd,
+              "{\"file\":\"a\\\\b\",\"line\":0,\"column\":0,\"severity\":\"note\",\"code\":\"V007\","
+              "\"text\":\"line\\u000abreak \\u0001 \\ufffd \xc3\xa9 "
+              "\\ufffd\\ufffd\\ufffd\",\"hint\":\"\",\"context\":[],\"related\":[]}");
 }
 
 TEST(Diagnostic, PlacesInItsSentencesAreRelated) {
@@ -45,9 +45,11 @@ TEST(Diagnostic, PlacesInItsSentencesAreRelated) {
 }
 
 TEST(Diagnostic, SaysWhatWasBeingDoneFromTheOutside) {
-    const Diagnostics inner(Diagnostic{.code = "R012", .text = "no.", .context = {"draw #3", "RenderPass \"forward\""}});
+    const Diagnostics inner(
+        Diagnostic{.code = "R012", .text = "no.", .context = {"draw #3", "RenderPass \"forward\""}});
     const Diagnostics outer = inner.within("frame \"main\"");
-    EXPECT_EQ(toString(outer.first()), "error R012: no; while validating frame \"main\" > RenderPass \"forward\" > draw #3");
+    EXPECT_EQ(toString(outer.first()),
+              "error R012: no; while validating frame \"main\" > RenderPass \"forward\" > draw #3");
     EXPECT_NE(toJson(outer.first()).find(R"("context":["draw #3","RenderPass \"forward\"","frame \"main\""])"),
               std::string::npos);
 }

@@ -35,12 +35,13 @@ auto need(Result<T> result) {
     if constexpr (!std::is_void_v<T>) return std::move(*result);
 }
 
-#define PELAGE_RAW_FUNCTIONS(F)                                                                       \
-    F(vkCreateCommandPool)                                                                            \
-    F(vkDestroyCommandPool) F(vkResetCommandPool) F(vkAllocateCommandBuffers) F(vkBeginCommandBuffer) \
-        F(vkEndCommandBuffer) F(vkCmdPipelineBarrier2) F(vkCmdBeginRendering) F(vkCmdEndRendering)    \
-            F(vkCmdBindPipeline) F(vkCmdBindDescriptorSets) F(vkCmdSetViewport) F(vkCmdSetScissor)    \
-                F(vkCmdSetLineWidth) F(vkCmdDraw) F(vkCmdDispatch)
+#define PELAGE_RAW_FUNCTIONS(F)                                                                                 \
+    F(vkCreateCommandPool)                                                                                      \
+    F(vkDestroyCommandPool)                                                                                     \
+    F(vkResetCommandPool) F(vkAllocateCommandBuffers) F(vkBeginCommandBuffer) F(vkEndCommandBuffer)             \
+        F(vkCmdPipelineBarrier2) F(vkCmdBeginRendering) F(vkCmdEndRendering) F(vkCmdBindPipeline)               \
+            F(vkCmdBindDescriptorSets) F(vkCmdSetViewport) F(vkCmdSetScissor) F(vkCmdSetLineWidth) F(vkCmdDraw) \
+                F(vkCmdDispatch)
 
 /// The functions that the raw side calls, and its command buffer.
 struct Raw {

@@ -12,10 +12,9 @@ namespace {
 
 /// The codes of the notes on a file, each once, in their order.
 std::string notesOf(const Bytes& bytes, const std::string& ending) {
-    const auto path =
-        std::filesystem::temp_directory_path() / ("pelage_codes_" + std::to_string(::getpid()) + ending);
-    std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()),
-                                                static_cast<std::streamsize>(bytes.size()));
+    const auto path = std::filesystem::temp_directory_path() / ("pelage_codes_" + std::to_string(::getpid()) + ending);
+    std::ofstream(path, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     const auto asset = loadAsset(path.string());
     std::filesystem::remove(path);
     if (!asset) return "refused: " + asset.error().text();

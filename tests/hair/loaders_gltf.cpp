@@ -215,7 +215,8 @@ TEST(Image, DecodesAndRefusesWithCodes) {
     poke(wide, 18, std::uint32_t{20000});
     const auto tooWide = decodeImage(wide, "x", true);
     ASSERT_FALSE(tooWide);
-    EXPECT_TRUE(tooWide.error().first().code == "I003" || tooWide.error().first().code == "I002") << tooWide.error().first().code;
+    EXPECT_TRUE(tooWide.error().first().code == "I003" || tooWide.error().first().code == "I002")
+        << tooWide.error().first().code;
     Bytes hollow = bmpFile();
     poke(hollow, 18, std::uint32_t{16384});
     poke(hollow, 22, std::uint32_t{16384});

@@ -216,7 +216,8 @@ TEST_F(Pipelines, ConstantsOfAPassGoBeforeTheMaterials) {
     hair::Renderer usual = renderer(hair::PipelineMode::Synchronous);
     const hair::Picture byPass = render(*unshadowed, scene, 64);
     EXPECT_NE(byPass.display, render(usual, scene, 64).display);
-    for (hair::Object& object : scene.objects) EXPECT_TRUE(object.material.setFromText("shadowing.mode", "off").empty());
+    for (hair::Object& object : scene.objects)
+        EXPECT_TRUE(object.material.setFromText("shadowing.mode", "off").empty());
     EXPECT_EQ(byPass.display, render(usual, scene, 64).display);
 }
 

@@ -18,8 +18,8 @@ std::string notesOf(const Strands& strands) {
         (std::filesystem::temp_directory_path() / ("pelage_scene_codes_" + std::to_string(::getpid()) + ".hair"))
             .string();
     const std::vector<std::byte> bytes = encodeHair(strands);
-    std::ofstream(path, std::ios::binary).write(reinterpret_cast<const char*>(bytes.data()),
-                                                static_cast<std::streamsize>(bytes.size()));
+    std::ofstream(path, std::ios::binary)
+        .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     Library library(PELAGE_DATA_DIR);
     const auto scene = sceneFromAsset(path, "", 1.0F, library);
     std::filesystem::remove(path);

@@ -102,8 +102,7 @@ const Row rows[] = {
   "functors": [
     { "id": "fresnel", "type": "FresnelFromIor", "in": { "ior": "glass.ior" }, "out": { "f0": "input.f0" } },
     { "id": "kind", "type": "Kind", "in": { "kind": "glass.kind" }, "out": { "kind": "option.kind", "state": @"shader.other.state" } })",
-     "M003", "'other' is a compute shader, which has no state",
-     "delete the connection, or drive its \"enabled\""},
+     "M003", "'other' is a compute shader, which has no state", "delete the connection, or drive its \"enabled\""},
     {R"("other": { "drawList": "shadow", "vertex": "a.vert" })",
      R"("other": @{ "drawList": "shadow", "vertex": "a.vert", "compute": "a.comp" })", "M033",
      "needs exactly one of \"vertex\" and \"compute\"", ""},

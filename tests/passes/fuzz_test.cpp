@@ -231,7 +231,8 @@ TEST(Fuzz, WhatOnlyMeaningForbidsIsRefused) {
                              Case{R"("size": { "frame": 1 } })", R"("size": { "frame": 1, "scale": 2 } })", "P0"}}) {
         const auto tree = PassTree::parse(edited(frame, each.from, each.to), "t");
         ASSERT_FALSE(tree) << each.to;
-        EXPECT_EQ(tree.error().items().front().code.text().rfind(each.code, 0), 0U) << each.to << "\n" << tree.error().text();
+        EXPECT_EQ(tree.error().items().front().code.text().rfind(each.code, 0), 0U) << each.to << "\n"
+                                                                                    << tree.error().text();
     }
 }
 

@@ -162,7 +162,10 @@ TEST_F(GraphClassTest, WhatAClassRefusesKeepsTheOldPlan) {
         const auto built = build(made, edited(classes, R"("class": "Copy")", R"("class": ")" + name + "\""), host);
         ASSERT_FALSE(built) << name;
         const Diagnostic& fault = built.error().items().front();
-        EXPECT_EQ(fault.code, name == "Invrt" ? Code("P053") : name == "Empty" ? Code("P072") : Code("X001")) << built.error().text();
+        EXPECT_EQ(fault.code, name == "Invrt"   ? Code("P053")
+                              : name == "Empty" ? Code("P072")
+                                                : Code("X001"))
+            << built.error().text();
         EXPECT_EQ(fault.line, 22U) << built.error().text();
         EXPECT_EQ(made.plansMade(), 1U);
     }

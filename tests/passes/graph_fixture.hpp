@@ -26,9 +26,7 @@ protected:
         return gpu.device.createShaderModule({.label = file, .code = {code.begin(), code.end()}});
     }
     /// What records the passes with a draw list.
-    std::function<Result<void>(PassContext&)> draws = [this](PassContext& context) {
-        return drawTriangle(context);
-    };
+    std::function<Result<void>(PassContext&)> draws = [this](PassContext& context) { return drawTriangle(context); };
     static Result<void> drawNothing(PassContext&) { return {}; }
     PassClass drawList() {
         return {.info = {.name = std::string(drawListClass)}, .create = [this](const PassSetup&) {

@@ -126,10 +126,9 @@ struct Steady {
         classes.add({.info = {.name = "Count", .kind = PassKind::Compute}, .create = [this](const PassSetup&) {
                          return Result<PassRecorder>([this](PassContext& context) { return dispatch(context); });
                      }});
-        graph = Graph(
-            {.device = device,
-             .shaders = [this](const std::string& file) -> Result<rhi::ShaderModule> { return shader(file); },
-             .classes = std::move(classes)});
+        graph = Graph({.device = device,
+                       .shaders = [this](const std::string& file) -> Result<rhi::ShaderModule> { return shader(file); },
+                       .classes = std::move(classes)});
         const auto tree = PassTree::parse(everything, "everything.pass.json");
         EXPECT_TRUE(tree) << tree.error().text();
         HostDescription host{.extent = {64, 32, 1}};

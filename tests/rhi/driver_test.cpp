@@ -161,7 +161,8 @@ TEST(Toggles, AnUnknownNameListsTheKnown) {
     const auto device = NullDevice::get(instance.requestAdapter()).requestDevice({.toggles = {{"noSuchThing"}}});
     ASSERT_FALSE(device);
     EXPECT_EQ(device.error().first().code, ErrorCode::UnknownToggle);
-    EXPECT_NE(device.error().first().text.find("resolveToFirstLayerOnly"), std::string::npos) << device.error().first().text;
+    EXPECT_NE(device.error().first().text.find("resolveToFirstLayerOnly"), std::string::npos)
+        << device.error().first().text;
 }
 
 }  // namespace

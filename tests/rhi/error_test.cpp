@@ -122,8 +122,7 @@ TEST_F(Errors, ADriverFailureNamesTheCallAndTheObject) {
         else
             refused = b.error().first();
     }
-    if (refused.text.empty())
-        GTEST_SKIP() << "this machine gave " << all.size() << " buffers of " << size << " bytes";
+    if (refused.text.empty()) GTEST_SKIP() << "this machine gave " << all.size() << " buffers of " << size << " bytes";
     contains(refused, {"[Buffer \"huge\"]", "VK_ERROR_"});
     EXPECT_EQ(refused.kind, ErrorKind::OutOfMemory);
 }

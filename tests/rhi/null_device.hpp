@@ -25,9 +25,10 @@ struct NullDevice {
         driver.oracle = &oracle;
         instance = get(vulkan::createInstance({}, NullDriver::entry()));
         auto adapter = get(instance.requestAdapter());
-        device = get(adapter.requestDevice({.label = "null",
-                                            .optionalFeatures = adapter.info().features,
-                                            .onUncapturedError = [this](const Diagnostic& e) { errors.push_back(e); }}));
+        device =
+            get(adapter.requestDevice({.label = "null",
+                                       .optionalFeatures = adapter.info().features,
+                                       .onUncapturedError = [this](const Diagnostic& e) { errors.push_back(e); }}));
     }
     template <class T>
     static T get(Result<T> result) {

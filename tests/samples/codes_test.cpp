@@ -33,14 +33,14 @@ TEST_F(Codes, OfSceneFiles) {
 }
 
 TEST_F(Codes, OfShippedDataByName) {
-    const std::string wrong = write("wrong.scene.json",
-                                    R"({ "format": "pelage.scene/1", "objects": [{ "name": "h", "generate": )"
-                                    R"({ "kind": "groom", "strands": 10 }, "material": "brwon" }] })");
+    const std::string wrong =
+        write("wrong.scene.json", R"({ "format": "pelage.scene/1", "objects": [{ "name": "h", "generate": )"
+                                  R"({ "kind": "groom", "strands": 10 }, "material": "brwon" }] })");
     renderRefuses(wrong, "L002");
     renderRefuses(sceneOf(""), "L003", {"--frame", "hair_farme"});
-    const std::string typeless = write("typeless.material.json",
-                                       R"({ "format": "pelage.material/1", "type": "nothing.materialtype.json",)"
-                                       R"( "typeVersion": 1, "values": {} })");
+    const std::string typeless =
+        write("typeless.material.json", R"({ "format": "pelage.material/1", "type": "nothing.materialtype.json",)"
+                                        R"( "typeVersion": 1, "values": {} })");
     const RunResult checked = run({"check", typeless});
     EXPECT_EQ(checked.exitCode, 2);
     EXPECT_NE((checked.out + checked.err).find("L001"), std::string::npos) << checked.out << checked.err;

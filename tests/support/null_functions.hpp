@@ -24,7 +24,8 @@
     F(vkGetDeviceQueue)                                                                                                \
     F(vkDeviceWaitIdle)                                                                                                \
     F(vkQueueWaitIdle)                                                                                                 \
-    F(vkQueueSubmit2) F(vkAllocateMemory) F(vkFreeMemory) F(vkMapMemory) F(vkCreateBuffer) F(vkDestroyBuffer) F(       \
+    F(vkQueueSubmit2)                                                                                                  \
+    F(vkAllocateMemory) F(vkFreeMemory) F(vkMapMemory) F(vkCreateBuffer) F(vkDestroyBuffer) F(                         \
         vkGetBufferMemoryRequirements2) F(vkBindBufferMemory2) F(vkCreateImage) F(vkDestroyImage)                      \
         F(vkGetDeviceImageMemoryRequirements) F(vkBindImageMemory2) F(vkCreateImageView) F(vkDestroyImageView) F(      \
             vkCreateSampler) F(vkDestroySampler) F(vkCreateShaderModule) F(vkDestroyShaderModule)                      \

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
 // The one error of Pelage. A diagnostic is one line: what is wrong, where, what was expected, what to do. Readers of
-// outside bytes, pass trees, materials, the renderer and the device all fail with it, so that people and editors read one
-// format and a fault keeps its code and its place on the way up.
+// outside bytes, pass trees, materials, the renderer and the device all fail with it, so that people and editors read
+// one format and a fault keeps its code and its place on the way up.
 #pragma once
 
 #include <pelage/base/code.hpp>

@@ -3,8 +3,8 @@
 // driver at hand. For measuring, not for rendering.
 #pragma once
 
-#include <pelage/hair/scattering.hpp>
 #include <pelage/base/diagnostic.hpp>
+#include <pelage/hair/scattering.hpp>
 #include <pelage/rhi/rhi.hpp>
 
 #include <vector>
@@ -22,7 +22,7 @@ public:
 
     /// One result for each row, in their order; waits for the device. Tables are made for the rows that need them.
     Result<std::vector<ScatteredLobes>> evaluate(ScatteringModel model, bool published,
-                                                  std::span<const ScatterRow> rows);
+                                                 std::span<const ScatterRow> rows);
 
 private:
     rhi::Device device_;

@@ -42,7 +42,7 @@ inline Result<passes::SettingValue> parseUint(const passes::SettingInfo& info, c
 
 /// "true", "1024" or a word, judged by what the tree says of the setting (codes S010 unknown name, S011 wrong value).
 inline Result<passes::SettingValue> parseSetting(const passes::PassTree& tree, const std::string& name,
-                                                  const std::string& text) {
+                                                 const std::string& text) {
     const auto& all = tree.settings();
     const auto info = std::find_if(all.begin(), all.end(), [&](const auto& each) { return each.name == name; });
     if (info == all.end()) {

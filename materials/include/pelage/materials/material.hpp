@@ -62,12 +62,11 @@ struct ShaderUse {
     bool operator==(const ShaderUse&) const = default;
 };
 
-
 class MaterialType {
 public:
     /// Reads and links a type. The type keeps copies of the functors it names; the registry may go.
     static Result<std::shared_ptr<const MaterialType>> parse(std::string_view text, const std::string& file,
-                                                              const FunctorRegistry& registry);
+                                                             const FunctorRegistry& registry);
     static Result<std::shared_ptr<const MaterialType>> load(const std::string& path, const FunctorRegistry& registry);
 
     const std::string& name() const;
@@ -126,7 +125,7 @@ public:
     /// Reads a material and its parents: the values of the nearest file win. A parent that is missing, of another type,
     /// or its own ancestor is V012, at each place concerned.
     static Result<Parsed> parse(std::string_view text, const std::string& file, const TypeSource& types,
-                                 const ParentSource& parents = {});
+                                const ParentSource& parents = {});
     static Result<Parsed> load(const std::string& path, const TypeSource& types, const ParentSource& parents = {});
     /// The files it was read from: its own, its parent, the parent's parent. Empty for a material made by a program.
     const std::vector<std::string>& files() const { return files_; }

@@ -17,6 +17,6 @@ struct Migration {
 /// Renames, converts and drops what `versionUpdates` of the type say, and writes down the values that a file without a
 /// parent relied on. Faults are those of Material::parse. Only this file is rewritten, not its parents.
 Result<Migration> migrate(std::string_view text, const std::string& file, const Material::TypeSource& types,
-                           const Material::ParentSource& parents = {});
+                          const Material::ParentSource& parents = {});
 
 }  // namespace pelage::materials

@@ -93,8 +93,8 @@ struct PassSetup {
     const std::map<std::string, double>& constants() const;
 
     struct Asked {
-        bool all = false;                          // constants() was called
-        std::vector<std::string> names = {};       // constants of the modules that stage() was given
+        bool all = false;                     // constants() was called
+        std::vector<std::string> names = {};  // constants of the modules that stage() was given
     };
     Asked& asked;
 };

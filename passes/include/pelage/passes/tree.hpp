@@ -124,7 +124,7 @@ public:
     /// Reads a tree from memory; `file` is its name in messages. What "include" names is looked up in the folder of the
     /// file that says so: by `reader`; without one nothing can be included.
     static Result<std::shared_ptr<const PassTree>> parse(std::string_view text, const std::string& file,
-                                                          const TextReader& reader = {});
+                                                         const TextReader& reader = {});
     /// Reads a file and what it includes: files beside it, else those at `elsewhere(name)`.
     static Result<std::shared_ptr<const PassTree>> load(const std::string& path, const IncludePath& elsewhere = {});
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: MIT
-// What can go wrong, as values: `Result<T>` of <pelage/base/diagnostic.hpp>. Nothing throws across this library's surface
-// and nothing aborts. A device's fault has a `kind` that says what to do about it, one sentence (the labelled object, the
-// value found, the value expected) and the context it was found in.
+// What can go wrong, as values: `Result<T>` of <pelage/base/diagnostic.hpp>. Nothing throws across this library's
+// surface and nothing aborts. A device's fault has a `kind` that says what to do about it, one sentence (the labelled
+// object, the value found, the value expected) and the context it was found in.
 #pragma once
 
 #include <pelage/base/diagnostic.hpp>
