@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A material that has not changed: what joining it to a shader asks of the heap. On the driver that does nothing.
 #include "material/binding.hpp"
+#include "support/counting_new.hpp"
 #include "support/null_driver.hpp"
 
 #include <pelage/hair/generate.hpp>
@@ -9,27 +10,6 @@
 #include <pelage/rhi/vulkan.hpp>
 
 #include <gtest/gtest.h>
-
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
-namespace {
-std::atomic<std::uint64_t> allocations{0};
-}
-
-// Every allocation of this program passes here. Not inlined: the compiler would see malloc meet delete and warn.
-__attribute__((noinline)) void* operator new(std::size_t size) {
-    ++allocations;
-    if (void* p = std::malloc(size != 0 ? size : 1)) return p;
-    throw std::bad_alloc();
-}
-__attribute__((noinline)) void operator delete(void* p) noexcept {
-    std::free(p);
-}
-__attribute__((noinline)) void operator delete(void* p, std::size_t) noexcept {
-    std::free(p);
-}
 
 namespace pelage::test {
 namespace {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // What moving strands cost a frame: nothing of the heap and nothing of the driver but the bytes themselves.
+#include "support/counting_new.hpp"
 #include "support/null_driver.hpp"
 
 #include "resources/strands.hpp"
@@ -9,27 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
 #include <functional>
-#include <new>
-
-namespace {
-std::atomic<std::uint64_t> allocations{0};
-}
-
-// Every allocation of this program passes here. Not inlined: the compiler would see malloc meet delete and warn.
-__attribute__((noinline)) void* operator new(std::size_t size) {
-    ++allocations;
-    if (void* p = std::malloc(size != 0 ? size : 1)) return p;
-    throw std::bad_alloc();
-}
-__attribute__((noinline)) void operator delete(void* p) noexcept {
-    std::free(p);
-}
-__attribute__((noinline)) void operator delete(void* p, std::size_t) noexcept {
-    std::free(p);
-}
 
 namespace pelage::test {
 namespace {

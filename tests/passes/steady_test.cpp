@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // A frame like the one before it: what the graph asks of the heap and of the driver when nothing has changed. No device
 // is needed; the driver does nothing.
+#include "support/counting_new.hpp"
 #include "support/null_driver.hpp"
 
 #include <pelage/passes/graph.hpp>
@@ -8,28 +9,8 @@
 
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
-namespace {
-std::atomic<std::uint64_t> allocations{0};
-}
-
-// Every allocation of this program passes here. Not inlined: the compiler would see malloc meet delete and warn.
-__attribute__((noinline)) void* operator new(std::size_t size) {
-    ++allocations;
-    if (void* p = std::malloc(size != 0 ? size : 1)) return p;
-    throw std::bad_alloc();
-}
-__attribute__((noinline)) void operator delete(void* p) noexcept {
-    std::free(p);
-}
-__attribute__((noinline)) void operator delete(void* p, std::size_t) noexcept {
-    std::free(p);
-}
-
 namespace pelage::passes::test {
+using pelage::test::allocations;
 std::span<const std::uint32_t> embeddedShader(std::string_view name);
 
 namespace {

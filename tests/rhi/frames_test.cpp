@@ -2,28 +2,8 @@
 // Many frames: what the library asks of the heap and of the driver stays flat.
 #include <malloc.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
 #include "null_device.hpp"
-
-namespace {
-std::atomic<std::uint64_t> allocations{0};
-}
-
-// Every allocation of this program passes here. Not inlined: the compiler would see malloc meet delete and warn.
-__attribute__((noinline)) void* operator new(std::size_t size) {
-    ++allocations;
-    if (void* p = std::malloc(size != 0 ? size : 1)) return p;
-    throw std::bad_alloc();
-}
-__attribute__((noinline)) void operator delete(void* p) noexcept {
-    std::free(p);
-}
-__attribute__((noinline)) void operator delete(void* p, std::size_t) noexcept {
-    std::free(p);
-}
+#include "support/counting_new.hpp"
 
 namespace pelage::test {
 namespace {
