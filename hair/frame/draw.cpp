@@ -2,6 +2,8 @@
 // Draw lists to draws and dispatches: the bind groups of the four sets of a material in a pass, then the call.
 #include "state.hpp"
 
+#include <functional>
+
 namespace pelage::hair {
 
 Result<rhi::BindGroup> Renderer::State::groupFor(std::map<const void*, rhi::BindGroup>& cache,
@@ -54,10 +56,12 @@ Result<rhi::BindGroup> Renderer::State::materialGroup(std::size_t index, const O
         const auto found = modules.find(file);
         return found == modules.end() ? rhi::ShaderModule() : found->second;
     };
+    const auto modulesOf = [&]() -> MaterialBindings::Modules {
+        return {made(set.vertexFile(use)), made(use.fragment), made(use.compute)};
+    };
+    // By reference: the function object itself would be allocated anew for each draw.
     return bindings.bindGroup({index, layout.get(), shader}, layout, set.type, *object.material, *object.geometry,
-                              uploads, [&]() -> MaterialBindings::Modules {
-                                  return {made(set.vertexFile(use)), made(use.fragment), made(use.compute)};
-                              });
+                              uploads, std::cref(modulesOf));
 }
 
 namespace {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: MIT
 // Before a frame is recorded: the graph for its extent and settings, the uniform blocks of its views, the state of its
 // objects.
+#include "names.hpp"
 #include "state.hpp"
 
 #include <algorithm>
@@ -8,17 +9,66 @@
 
 namespace pelage::hair {
 
+namespace {
+
+rhi::Extent3D extentOf(const FrameSettings& frame) {
+    return {frame.width, frame.height, 1};
+}
+
+std::optional<passes::DepthConvention> hostDepthOf(const FrameSettings& frame) {
+    return frame.view ? std::optional(frame.view->depth) : std::nullopt;
+}
+
+passes::LentImport lentImage(const rhi::Texture& texture) {
+    if (!texture) return {};
+    return {true, texture.format(), texture.size(), texture.sampleCount()};
+}
+
+}  // namespace
+
+GraphInputs::GraphInputs(const Scene& scene, const FrameSettings& frame)
+    : extent(extentOf(frame)),
+      hostDepth(hostDepthOf(frame)),
+      lights(lightOptions(scene, maxLights)),
+      settings(frame.settings) {
+    for (const auto& [name, texture] : frame.imports) images[name] = lentImage(texture);
+    for (const auto& [name, buffer] : frame.buffers)
+        if (buffer) buffers.push_back(name);
+}
+
+bool GraphInputs::are(const Scene& scene, const FrameSettings& frame) const {
+    if (extent != extentOf(frame) || hostDepth != hostDepthOf(frame) || lights != lightOptions(scene, maxLights) ||
+        settings != frame.settings)
+        return false;
+    const bool sameImages =
+        std::equal(images.begin(), images.end(), frame.imports.begin(), frame.imports.end(),
+                   [](const auto& a, const auto& b) { return a.first == b.first && a.second == lentImage(b.second); });
+    std::size_t at = 0;
+    for (const auto& [name, buffer] : frame.buffers) {
+        if (!buffer) continue;
+        if (at == buffers.size() || buffers[at] != name) return false;
+        ++at;
+    }
+    return sameImages && at == buffers.size();
+}
+
 Result<void> Renderer::State::buildGraph(const Scene& scene, const FrameSettings& settings, std::uint32_t& shadowSize,
                                          std::uint32_t& shadowLights) {
+    if (built && inputs && inputs->are(scene, settings)) {
+        shadowSize = inputs->shadowSize;
+        shadowLights = inputs->shadowLights;
+        return {};
+    }
+    inputs.reset();
     passes::HostDescription wanted;
-    wanted.extent = {settings.width, settings.height, 1};
+    wanted.extent = extentOf(settings);
     wanted.depth = passes::DepthConvention::Reversed;
     wanted.settings = settings.settings;
     // What a tree does not ask for is not lent: a warning about it would not be the caller's doing.
     for (const passes::WantedImport& import : tree->imports()) {
-        if (import.name == "EnvIrradiance")
+        if (import.name == names::environmentIrradiance)
             wanted.imports[import.name] = {true, rhi::TextureFormat::RGBA16Float, {16, 16, 6}, 1};
-        if (import.name == "DisplayConstants" || import.name == "FrameConstants")
+        if (import.name == names::displayConstants || import.name == names::frameConstants)
             wanted.imports[import.name] = {true, rhi::TextureFormat::Undefined, {}, 1};
     }
     for (const auto& [name, texture] : settings.imports)
@@ -27,19 +77,19 @@ Result<void> Renderer::State::buildGraph(const Scene& scene, const FrameSettings
         if (buffer) wanted.imports[name] = {true, rhi::TextureFormat::Undefined, {}, 1};
     // The renderer gives its depth to no caller, so depth need not outlive the passes that test against it.
     for (const std::string& name : tree->exports())
-        if (name == "Depth") wanted.unwantedExports.push_back(name);
+        if (name == names::depth) wanted.unwantedExports.push_back(name);
     shadowSize = 1;
     shadowLights = 0;
     for (const passes::SettingInfo& info : tree->settings()) {
         const auto given = wanted.settings.find(info.name);
         const std::uint32_t number = given != wanted.settings.end() ? given->second.number : info.defaultValue.number;
-        if (info.name == "shadowSize") shadowSize = number;
-        if (info.name == "hostDepth" && settings.view && given == wanted.settings.end()) {
+        if (info.name == names::shadowSize) shadowSize = number;
+        if (info.name == names::hostDepth && settings.view && given == wanted.settings.end()) {
             const bool reversed = settings.view->depth == passes::DepthConvention::Reversed;
             wanted.settings[info.name] = {passes::SettingValue::Type::Enum, reversed ? 0U : 1U,
                                           reversed ? "reversed" : "conventional"};
         }
-        if (info.name == "shadowLights") {
+        if (info.name == names::shadowLights) {
             // As many layers as there are lights that cast shadows, unless the caller wants fewer.
             shadowLights = std::min(countShadowLights(scene), given != wanted.settings.end() ? number : info.max);
             wanted.settings[info.name] = {passes::SettingValue::Type::Uint, shadowLights, {}};
@@ -56,12 +106,16 @@ Result<void> Renderer::State::buildGraph(const Scene& scene, const FrameSettings
         return built && wanted.extent == host.extent && wanted.settings == host.settings &&
                wanted.imports == host.imports;
     };
-    if (same()) return {};
-    auto result = graph.build(*tree, wanted);
-    if (!result) return tl::unexpected(firstError(result.error()));
-    host = std::move(wanted);
-    built = true;
-    ++graphBuilds;
+    if (!same()) {
+        auto result = graph.build(*tree, wanted);
+        if (!result) return tl::unexpected(result.error());
+        host = std::move(wanted);
+        built = true;
+        ++graphBuilds;
+    }
+    inputs.emplace(scene, settings);
+    inputs->shadowSize = shadowSize;
+    inputs->shadowLights = shadowLights;
     return {};
 }
 

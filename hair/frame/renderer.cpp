@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: MIT
 // The glue: scene -> views, uploads and material bindings; pass tree -> graph; draw lists -> draws.
+#include "names.hpp"
 #include "state.hpp"
 
 #include <glm/gtc/packing.hpp>
@@ -88,6 +89,7 @@ Result<void> Renderer::setTree(std::shared_ptr<const passes::PassTree> tree) {
         ++state.graphBuilds;
     }
     state.tree = std::move(tree);
+    state.inputs.reset();
     state.checkedTypes.clear();
     return {};
 }
@@ -106,7 +108,8 @@ Result<void> Renderer::encode(Scene& scene, const FrameSettings& settings, rhi::
     }
     std::uint32_t shadowSize = 1, shadowLights = 0;
     if (auto built = state.buildGraph(scene, settings, shadowSize, shadowLights); !built) return built;
-    const FrameViews views = makeViews(scene, settings, shadowSize, shadowLights);
+    makeViews(state.viewBlocks, scene, settings, shadowSize, shadowLights);
+    const FrameViews& views = state.viewBlocks;
     state.lights = views.lights;
     state.environmentOff = !scene.environment.enabled();
     if (auto prepared = state.prepareObjects(scene, views, encoder); !prepared) return prepared;
@@ -120,24 +123,27 @@ Result<void> Renderer::encode(Scene& scene, const FrameSettings& settings, rhi::
     auto irradiance = state.uploads.irradiance(scene.environment);
     if (!irradiance) return tl::unexpected(irradiance.error());
 
-    passes::FrameImports imports;
-    imports.textures["EnvIrradiance"] = *irradiance;
-    imports.buffers["DisplayConstants"] = state.displayBlock;
-    imports.buffers["FrameConstants"] = state.views[0].block;
+    passes::FrameImports& imports = state.imports;
+    imports.textures[names::environmentIrradiance] = *irradiance;
+    imports.buffers[names::displayConstants] = state.displayBlock;
+    imports.buffers[names::frameConstants] = state.views[0].block;
     for (const auto& [name, texture] : settings.imports) imports.textures[name] = texture;
     for (const auto& [name, buffer] : settings.buffers) imports.buffers[name] = buffer;
     state.recorded = &scene;
     auto recorded = state.graph.record(encoder, imports);
     state.recorded = nullptr;
+    // What was lent goes back; the names stay for the next frame.
+    for (auto& [name, texture] : imports.textures) texture = {};
+    for (auto& [name, buffer] : imports.buffers) buffer = {};
     if (!recorded) return tl::unexpected(recorded.error());
     return {};
 }
 
 rhi::Texture Renderer::displayTexture() const {
-    return exported("LdrColor");
+    return exported(names::display);
 }
 rhi::Texture Renderer::colorTexture() const {
-    return exported("HdrColor");
+    return exported(names::color);
 }
 rhi::Texture Renderer::exported(const std::string& name) const {
     return state_->graph.exported(name);

@@ -86,6 +86,20 @@ std::array<rhi::BindGroupLayout, 4> layoutsOf(const Pipeline& pipeline) {
             pipeline.bindGroupLayout(3)};
 }
 
+// All that the plan of a frame depends on, as it was when the plan was last looked for. Comparing allocates nothing.
+struct GraphInputs {
+    rhi::Extent3D extent = {};
+    std::optional<passes::DepthConvention> hostDepth = {};
+    LightOptions lights = {};  // with a layer for every light that casts a shadow
+    std::map<std::string, passes::SettingValue> settings = {};
+    std::map<std::string, passes::LentImport> images = {};
+    std::vector<std::string> buffers = {};
+    std::uint32_t shadowSize = 1, shadowLights = 0;  // what came of them
+
+    GraphInputs(const Scene& scene, const FrameSettings& frame);
+    bool are(const Scene& scene, const FrameSettings& frame) const;
+};
+
 struct Renderer::State {
     rhi::Device device;
     std::shared_ptr<const passes::PassTree> tree;
@@ -103,6 +117,10 @@ struct Renderer::State {
     rhi::Buffer displayBlock;
     passes::HostDescription host;  // of the built graph
     bool built = false;
+    std::optional<GraphInputs> inputs = {};
+    // Of the frame being recorded; kept, so that a steady frame allocates none of it anew.
+    FrameViews viewBlocks = {};
+    passes::FrameImports imports = {};
     std::uint64_t graphBuilds = 0;
     // Types that were checked against the tree and their shaders; held, so that no other type gets the address of one.
     std::vector<std::shared_ptr<const materials::MaterialType>> checkedTypes;

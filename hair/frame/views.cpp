@@ -93,9 +93,10 @@ glm::mat4 orthographicReversed(float halfWidth, float halfHeight, float nearPlan
     return m;
 }
 
-FrameViews makeViews(const Scene& scene, const FrameSettings& settings, std::uint32_t shadowSize,
-                     std::uint32_t shadowLights) {
-    FrameViews views;
+void makeViews(FrameViews& views, const Scene& scene, const FrameSettings& settings, std::uint32_t shadowSize,
+               std::uint32_t shadowLights) {
+    views.main = {};
+    views.shadows.clear();
     FrameBlock& main = views.main;
     const Camera& camera = scene.camera;
     const glm::vec3 forward = unit(camera.target - camera.eye, {0, 0, -1});
@@ -148,7 +149,6 @@ FrameViews makeViews(const Scene& scene, const FrameSettings& settings, std::uin
         shadow.frameIndex = settings.frameIndex;
         views.shadows.push_back(shadow);
     }
-    return views;
 }
 
 }  // namespace pelage::hair

@@ -29,8 +29,9 @@ struct FrameViews {
 };
 
 /// `shadowLights`: how many layers the shadow map has; the first that many lights that cast shadows get one.
-FrameViews makeViews(const Scene& scene, const FrameSettings& settings, std::uint32_t shadowSize,
-                     std::uint32_t shadowLights);
+/// `views` is written over; a scene of as many lights as before allocates nothing.
+void makeViews(FrameViews& views, const Scene& scene, const FrameSettings& settings, std::uint32_t shadowSize,
+               std::uint32_t shadowLights);
 
 /// Right-handed, looking along -z, depth 1 at the near plane and 0 at the far plane, clip-space +Y up.
 glm::mat4 perspectiveReversed(float verticalFov, float aspect, float nearPlane, float farPlane);

@@ -42,10 +42,14 @@ const std::string& nameOf(const Geometry& geometry) {
 
 bool boundsOf(const Geometry& geometry, glm::vec3& low, glm::vec3& high) {
     if (isEmpty(geometry)) return false;
-    const Strands* strands = strandsOf(geometry);
-    low = strands != nullptr ? strands->boundsMin : meshOf(geometry)->boundsMin;
-    high = strands != nullptr ? strands->boundsMax : meshOf(geometry)->boundsMax;
-    return true;
+    const auto take = [&](const auto& held) {
+        low = held.boundsMin;
+        high = held.boundsMax;
+        return true;
+    };
+    if (const Strands* strands = strandsOf(geometry)) return take(*strands);
+    const Mesh* mesh = meshOf(geometry);
+    return mesh != nullptr && take(*mesh);
 }
 
 }  // namespace pelage::hair

@@ -184,7 +184,8 @@ TEST_F(Lighting, ShadowMapsHoldTheWholeOfTheHair) {
                                .position = center - far * glm::length(high - low) * glm::normalize(d)};
         };
         scene.lights = {{.direction = d}, at(0.3F), at(0.54F), at(0.7F), at(3.0F), at(100.0F)};
-        const hair::FrameViews views = hair::makeViews(scene, {.width = 8, .height = 8}, 1024, 8);
+        hair::FrameViews views;
+        hair::makeViews(views, scene, {.width = 8, .height = 8}, 1024, 8);
         ASSERT_EQ(views.shadows.size(), scene.lights.size());
         for (std::size_t i = 0; i < scene.lights.size(); ++i) {
             for (int corner = 0; corner < 8; ++corner) {

@@ -74,5 +74,54 @@ TEST_F(SteadyBinding, AnUnchangedMaterialAsksNothingOfTheHeapAndMakesNoObject) {
     EXPECT_EQ(bind(), other);
 }
 
+// Two grooms, one of which moves, skin, three lights with shadows; camera, colours of lights and points differ in each
+// frame.
+TEST_F(SteadyBinding, AHairFrameAsksNothingOfTheHeapAndMakesNoObject) {
+    auto tree = library.passTree("hair_frame");
+    ASSERT_TRUE(tree) << tree.error().text();
+    auto renderer = hair::Renderer::create({.device = device, .tree = *tree});
+    ASSERT_TRUE(renderer) << renderer.error().text();
+    const auto groom = std::make_shared<const hair::Strands>(
+        hair::makeGroom({.style = hair::Style::Wavy, .strands = 40, .pointsPerStrand = 6}));
+    hair::Scene scene;
+    const auto add = [&](const char* name, hair::Geometry geometry, const char* preset) {
+        scene.objects.push_back(
+            {.name = name, .geometry = std::move(geometry), .material = library.material(preset)->material});
+    };
+    add("strands", groom, "brown");
+    add("more", groom, "blond");
+    add("head", std::make_shared<const hair::Mesh>(hair::makeHead()), "skin");
+    scene.lights = {{}, {.direction = {1, -1, 0}}, {.direction = {-1, -1, 0}}};
+    std::vector<glm::vec3> points = groom->points;
+    scene.objects[1].moved.points = points;
+    hair::FrameSettings settings = {.width = 64, .height = 64};
+    const auto frame = [&](int i) {
+        const float t = 0.01F * static_cast<float>(i);
+        scene.camera.eye.x = t;
+        scene.lights[1].intensity = 1 + t;
+        for (std::size_t p = 0; p < points.size(); ++p) points[p] = groom->points[p] + glm::vec3(t, 0, 0);
+        settings.frameIndex = static_cast<std::uint32_t>(i);
+        auto encoder = device.createCommandEncoder("frame");
+        const std::uint64_t before = allocations;
+        const auto encoded = renderer->encode(scene, settings, encoder);
+        const std::uint64_t asked = allocations - before;
+        EXPECT_TRUE(encoded) << encoded.error().text();
+        const auto commands = encoder.finish();
+        EXPECT_TRUE(commands) << commands.error().text();
+        const auto sent = device.queue().submit(*commands);
+        EXPECT_TRUE(sent) << sent.error().text();
+        EXPECT_TRUE(device.queue().wait(*sent));
+        return asked;
+    };
+    for (int i = 0; i < 8; ++i) frame(i);
+    const std::size_t alive = driver.alive().size();
+    const std::uint64_t pipelines = driver.pipelinesCreated;
+    std::uint64_t asked = 0;
+    for (int i = 8; i < 58; ++i) asked += frame(i);
+    EXPECT_EQ(asked, 0U) << "in 50 frames of Renderer::encode";
+    EXPECT_EQ(driver.alive().size(), alive);
+    EXPECT_EQ(driver.pipelinesCreated, pipelines);
+}
+
 }  // namespace
 }  // namespace pelage::test
