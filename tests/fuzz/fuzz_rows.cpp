@@ -11,7 +11,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string_view text(reinterpret_cast<const char*>(data), size);
     const auto read = readScatterRows(text, "fuzz");
     if (!read) {
-        if (pelage::read.error().text().find('\n') != std::string::npos) std::abort();
+        if (pelage::toString(read.error().first()).find('\n') != std::string::npos) std::abort();
         return 0;
     }
     for (const RowFault& fault : read->faults) {
